@@ -66,7 +66,8 @@ struct ExerciseModel {
     std::string title, instruction;
     bool done = false, live = false;
     double at_s = 0;
-    std::string restore_title = {};  ///< its start can be come back to; empty: it cannot
+    std::string restore_title = {};  ///< its start can be gone to; empty: it cannot
+    bool anew = false;               ///< likewise, by beginning anew: this attempt was not there
     std::string name = {};           ///< in the exercise's file
     bool can_begin = false;          ///< the attempt may begin with it
     bool in_part = true;             ///< it is of the part that was chosen

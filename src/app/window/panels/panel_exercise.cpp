@@ -408,6 +408,8 @@ void draw_guide_switch(const PanelContext& c) {
     ui::wrapped_text(color::kTextQuiet, "Not led: your results say that you can do without.");
 }
 
+bool is_anew(const ExerciseModel::Stage& stage) { return stage.anew; }
+
 bool can_return(const ExerciseModel& model) {
   return std::any_of(model.stages.begin(), model.stages.end(),
                      [](const auto& stage) { return !stage.restore_title.empty(); });
@@ -416,13 +418,19 @@ bool can_return(const ExerciseModel& model) {
 void draw_return(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   if (!can_return(model)) return;
-  const bool chooses = ImGui::BeginCombo("##return", "Back to the start of ...");
+  const bool chooses = ImGui::BeginCombo("##return", "Go to the start of ...");
   ui::tooltip("What was done since is undone; errors still count");
   if (!chooses) return;
-  for (std::size_t i = 0; i < model.stages.size(); ++i)
-    if (!model.stages[i].restore_title.empty() &&
-        ImGui::Selectable(model.stages[i].restore_title.c_str()))
-      c.requests.exercise.return_to = i;
+  for (const bool anew : {false, true}) {
+    if (anew && std::any_of(model.stages.begin(), model.stages.end(), is_anew))
+      ImGui::TextDisabled("Begin anew there");
+    for (std::size_t i = 0; i < model.stages.size(); ++i)
+      if (const auto& stage = model.stages[i]; stage.anew == anew && !stage.restore_title.empty()) {
+        if (ImGui::Selectable(stage.restore_title.c_str())) c.requests.exercise.return_to = i;
+        if (anew)
+          ui::tooltip("This attempt ends; the expert does what comes before, which takes minutes");
+      }
+  }
   ImGui::EndCombo();
 }
 

@@ -271,6 +271,23 @@ TEST_F(ExercisePanel, WhatIsFoundIsStatedByMouse) {
   EXPECT_EQ(asked.state->second, "2");
 }
 
+TEST_F(ExercisePanel, StartsOfStagesAreChosenThoseThatWereNotReachedBelow) {
+  ExerciseModel& model = at(ExercisePage::kRunning);
+  model.stages[0].restore_title = "Tibia tunnel locating";
+  model.stages[0].anew = true;
+  model.stages[1].restore_title = "Initial state";
+  settle();
+  (void)ui.click("##running", {"##return"});
+  settle();
+  const std::string list = child("##Combo");
+  ASSERT_FALSE(list.empty());
+  const ImVec2 here = ui.find(list.c_str(), {"Initial state"});
+  const ImVec2 ahead = ui.find(list.c_str(), {"Tibia tunnel locating"});
+  ASSERT_GT(here.y, 0);
+  EXPECT_GT(ahead.y, here.y);
+  EXPECT_EQ(ui.click(list.c_str(), {"Tibia tunnel locating"}).exercise.return_to, 0u);
+}
+
 TEST_F(ExercisePanel, TheResultCanBeWatchedPrintedAndTriedAgain) {
   ExerciseModel& model = at(ExercisePage::kResult);
   model.verdict = "undecided";

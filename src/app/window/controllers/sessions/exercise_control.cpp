@@ -61,12 +61,6 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     if (requests.hint) exercise_.show_cue();
     if (requests.undo && live_.run() && live_.run()->undo()) count_undo();
     if (LiveRun* const run = live_.run()) {
-      const auto mark =
-          requests.return_to ? exercise_.mark_of_stage(*requests.return_to) : std::nullopt;
-      if (mark && run->go_back(*mark)) {
-        count_undo();
-        tell_what_is_undone(*requests.return_to);
-      }
       if (requests.bend_deg) run->say({CommandKind::kBend, *requests.bend_deg});
       if (requests.tension_n) run->say({CommandKind::kTension, *requests.tension_n});
       if (requests.pull_n) run->say({CommandKind::kLachman, *requests.pull_n});
@@ -80,6 +74,7 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     if (requests.pause) switch_pause(exercise_, live_.run());
     if (requests.end) ask_to_end();
   }
+  if (requests.return_to && running()) go_to_start_of(*requests.return_to);
   if (requests.pages) save_pages();
   if (requests.show) wanted_ = *requests.show;
   if (requests.watch) {
@@ -166,6 +161,25 @@ bool ExerciseControl::is_near_expert(const Vec3& tip_W, const Vec3& expert_W) {
 std::vector<std::string> ExerciseControl::used_by_active_hand() const {
   if (!running() || !live_.run()) return {};
   return exercise_.used_by(live_.run()->active());
+}
+
+// What this attempt has not done is done by the expert, in an attempt that begins there.
+void ExerciseControl::go_to_start_of(std::size_t stage) {
+  LiveRun* const run = live_.run();
+  const auto mark = exercise_.mark_of_stage(stage);
+  if (run && mark && run->go_back(*mark)) {
+    count_undo();
+    tell_what_is_undone(stage);
+  }
+  if (!run || mark || !exercise_.can_begin_anew_at(stage)) return;
+  if (!exercise_.wants_to_leave_for(stage))
+    return host_.note(ToastKind::kWarning,
+                      "You have not been there. Chosen once more, this attempt ends without a "
+                      "verdict, the expert does what comes before, and you begin there.");
+  stop_working();
+  const auto left = exercise_.leave_for(stage);
+  if (!left) host_.note(ToastKind::kError, left.error().message());
+  open_patient();
 }
 
 void ExerciseControl::tell_what_is_undone(std::size_t stage) {
@@ -428,7 +442,7 @@ void ExerciseControl::begin_to_work(const std::vector<PlannedHand>& hands) {
   camera_before_bench_.reset();
   hand_before_bench_.reset();
   ways_.clear();
-  host_.note(ToastKind::kInfo, "The time is running. M takes the probe, Esc releases it.");
+  host_.note(ToastKind::kInfo, "The time is running. M takes the instrument, Esc releases it.");
 }
 
 void ExerciseControl::show_scope() {
@@ -543,12 +557,16 @@ void ExerciseControl::ask_to_end() {
   host_.note(ToastKind::kWarning, "Once more (J) ends the attempt, and it is judged.");
 }
 
-void ExerciseControl::end() {
+void ExerciseControl::stop_working() {
   ghost_.end();
   exercise_.pause(false);  // the force stays off: nobody asked for it
   const Result<void> stopped = live_.run()->stop_recording();
   if (!stopped) host_.note(ToastKind::kError, stopped.error().message());
   live_.let_probe_go();
+}
+
+void ExerciseControl::end() {
+  stop_working();
   exercise_.judge();
 }
 

@@ -50,7 +50,9 @@ class ExerciseControl {
   ExerciseModel model() const;
 
  private:
+  void go_to_start_of(std::size_t stage);
   void tell_what_is_undone(std::size_t stage);
+  void stop_working();
   void follow_marks(LiveRun& run);
   void open_patient();
   void hold_as_expert(bool comes_to_him);

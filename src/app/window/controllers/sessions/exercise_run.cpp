@@ -254,7 +254,7 @@ void ExerciseRun::begin_anew(double tick_s, fs::path file) {
   debrief_.reset();
   problem_.clear();
   now_s_ = 0;
-  end_asked_s_.reset();
+  end_asked_.reset();
   stage_ = 0;
   cue_shown_ = paused_ = false;
   pauses_.clear();
@@ -349,11 +349,33 @@ bool ExerciseRun::follow(const BoneSnapshot& bones) {
   return stage < scenario().stages.size() && scenario().stages[stage].restore_point;
 }
 
-bool ExerciseRun::wants_to_end() {
+bool ExerciseRun::asks_again(std::optional<std::size_t> for_stage) {
   constexpr double kSoonAgain_s = 5;
-  const bool again = end_asked_s_ && now_s_ - *end_asked_s_ < kSoonAgain_s;
-  end_asked_s_ = now_s_;
+  const bool again =
+      end_asked_ && end_asked_->for_stage == for_stage && now_s_ - end_asked_->at_s < kSoonAgain_s;
+  end_asked_ = AskedToEnd{now_s_, for_stage};
   return again;
+}
+
+bool ExerciseRun::wants_to_end() { return asks_again(std::nullopt); }
+
+bool ExerciseRun::wants_to_leave_for(std::size_t stage) { return asks_again(stage); }
+
+bool ExerciseRun::can_begin_anew_at(std::size_t stage) const {
+  if (stage >= scenario().stages.size() || mark_of_stage(stage)) return false;
+  return scenario().stages[stage].restore_point && !scenario().stages[stage].restore_title.empty();
+}
+
+Result<void> ExerciseRun::leave_for(std::size_t stage) {
+  if (!can_begin_anew_at(stage)) return fail("this stage has no start to go to", scenario().where);
+  const auto& stages = scenario().stages;
+  const bool beyond = stage > part_stages().last;
+  const std::string to = stages[beyond ? stages.size() - 1 : part_stages().last].name;
+  const auto noted = note_what_was_said();
+  watch_.reset();
+  page_ = ExercisePage::kBriefing;
+  if (auto chosen = choose_part(stages[stage].name, to); !chosen) return chosen;
+  return noted;
 }
 
 void ExerciseRun::show_cue() {

@@ -108,6 +108,13 @@ class ExerciseRun {
   void go_back(std::uint32_t number) { going_back_.push_back(number); }
   /// The restore point of a stage's start; none: it has none, or was not reached.
   std::optional<std::uint32_t> mark_of_stage(std::size_t stage) const;
+  /// Whether the user may go to a stage's start that was not reached: one with a name of its own.
+  bool can_begin_anew_at(std::size_t stage) const;
+  /// True the second time within some seconds of the attempt, as `wants_to_end`.
+  bool wants_to_leave_for(std::size_t stage);
+  /// The attempt ends without a verdict, its recording is kept; the part from that stage on is what
+  /// is opened next.
+  Result<void> leave_for(std::size_t stage);
   /// The knee, where a graft lies in it; `bones`: as they are shown.
   BentKneeModel knee(const BoneSnapshot& bones) const;
   /// What its landmarks that shall be seen miss, and whether the tip that clears stumps is seen;
@@ -199,7 +206,13 @@ class ExerciseRun {
   std::vector<std::deque<ToolState>> ticks_;  ///< by hand, not judged yet
   std::vector<ToolState> last_;               ///< by hand
   double tick_s_ = 0.001, now_s_ = 0;
-  std::optional<double> end_asked_s_;  ///< `now_s_` when the user wanted to end it
+  /// `now_s_` when the user wanted to end it, and to go to the start of a stage instead.
+  struct AskedToEnd {
+    double at_s = 0;
+    std::optional<std::size_t> for_stage = {};
+  };
+  std::optional<AskedToEnd> end_asked_;
+  bool asks_again(std::optional<std::size_t> for_stage);
   std::uint32_t stage_ = 0;
   bool cue_shown_ = false, paused_ = false, force_was_wanted_ = true;
   std::vector<AttemptPause> pauses_;

@@ -157,7 +157,8 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
     const double done_s = i < state.completed_s.size() ? state.completed_s[i] : -1;
     const double at_s = done_s < 0 ? done_s : std::max(0.0, done_s - watch_->part_from_s());
     model.stages.push_back({stage.title, stage.instruction, at_s >= 0, i == state.stage, at_s, {}});
-    if (mark_of_stage(i))
+    model.stages.back().anew = can_begin_anew_at(i);
+    if (mark_of_stage(i) || model.stages.back().anew)
       model.stages.back().restore_title =
           stage.restore_title.empty() ? stage.title : stage.restore_title;
   }

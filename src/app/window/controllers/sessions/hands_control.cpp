@@ -8,8 +8,9 @@
 namespace osteon {
 namespace {
 
-constexpr double kApart_m = 0.025;       // between two hands when they come in
-constexpr double kBefore_m = 0.012;      // before a portal
+constexpr double kApart_m = 0.025;   // between two hands when they come in
+constexpr double kBefore_m = 0.012;  // before a portal
+constexpr double kStandsBefore_m = 0.02;
 constexpr double kPortalReach_m = 0.03;  // a portal that a hand was brought to leads it so far
 constexpr double kNearEnough_m = 0.03;   // of the tip from bone: the line is drawn
 
@@ -211,13 +212,15 @@ HandsModel HandsControl::model(bool can_add, const std::vector<std::string>& use
   return model;
 }
 
-// The first from `from` on, round, through which no other hand works; `from` where each has one.
+// The first from `from` on, round, that no other hand works through or stands before; `from` where
+// each has one.
 std::size_t HandsControl::free_way(std::span<const WayIn> ways, std::size_t from) const {
   if (ways.empty()) return 0;
   const std::vector<ToolState> others = live_.run()->others();
   const auto is_free = [&](const WayIn& way) {
-    return std::none_of(others.begin(), others.end(),
-                        [&](const ToolState& tool) { return tool.portal == way.portal; });
+    return std::none_of(others.begin(), others.end(), [&](const ToolState& tool) {
+      return tool.portal == way.portal || (tool.X_WP.p - way.p_W).norm() < kStandsBefore_m;
+    });
   };
   for (std::size_t n = 0; n < ways.size(); ++n)
     if (is_free(ways[(from + n) % ways.size()])) return (from + n) % ways.size();

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "cases/open_case.h"
+#include "exercises/scenario_files.h"
 
 namespace osteon {
 namespace {
@@ -23,9 +25,9 @@ class ExerciseRunTest : public ::testing::Test {
     fs::remove_all(dir_);
   }
   // Begins touch_bones on the built-in wrist.
-  void begin() {
+  void begin(const std::string& exercise = "touch_bones") {
     run_.toggle();
-    ASSERT_TRUE(run_.choose("touch_bones"));
+    ASSERT_TRUE(run_.choose(exercise));
     const auto opened = open_case(run_.case_spec(), {}, CaseParts::kFelt);
     ASSERT_TRUE(opened) << opened.error().message();
     case_ = *opened;
@@ -172,6 +174,40 @@ TEST_F(ExerciseRunTest, ToEndItIsAskedForTwice) {
   run_.follow({});
   EXPECT_FALSE(run_.wants_to_end()) << "long ago";
   EXPECT_TRUE(run_.wants_to_end());
+}
+
+// A stage whose start has a name of its own is gone to though nobody came to it: the attempt ends,
+// and a part of the exercise that begins there is what is opened next.
+TEST_F(ExerciseRunTest, AStartThatWasNotReachedIsBegunAnew) {
+  auto text = open_scenario("touch_bones")->source_text;
+  for (const char* stage : {"name = \"metacarpals\"", "name = \"forearm\""})
+    text.insert(text.find(stage), "restore_title = \"Here\"\n");
+  const fs::path file = dir_ / "named.toml";
+  std::ofstream(file) << text;
+  begin(file.string());
+  EXPECT_FALSE(run_.can_begin_anew_at(0)) << "it has no name";
+  EXPECT_FALSE(run_.can_begin_anew_at(3)) << "there is no such stage";
+  EXPECT_TRUE(run_.model().stages[2].anew);
+  EXPECT_EQ(run_.model().stages[2].restore_title, "Here");
+  ASSERT_TRUE(run_.can_begin_anew_at(1));
+  EXPECT_FALSE(run_.leave_for(0));
+  (void)run_.leave_for(1);  // there is no recording to which what was said could be added
+  EXPECT_EQ(run_.page(), ExercisePage::kBriefing);
+  EXPECT_FALSE(run_.can_begin_anew_at(7));
+  EXPECT_FALSE(run_.state()) << "nothing of the attempt is left";
+  ASSERT_TRUE(run_.order_of_begin({}, {}));
+  EXPECT_EQ(run_.order_of_begin({}, {})->part, (AttemptPart{"metacarpals", "forearm", 0}));
+}
+
+TEST_F(ExerciseRunTest, ToGoToSuchAStartIsAskedForTwice) {
+  begin();
+  touch("capitate", 0, 100);
+  run_.follow({});
+  EXPECT_FALSE(run_.wants_to_leave_for(1));
+  EXPECT_FALSE(run_.wants_to_leave_for(2)) << "of another stage";
+  EXPECT_FALSE(run_.wants_to_end()) << "something else is asked for";
+  EXPECT_FALSE(run_.wants_to_leave_for(2));
+  EXPECT_TRUE(run_.wants_to_leave_for(2));
 }
 
 TEST_F(ExerciseRunTest, ItIsOverAtItsTimeLimit) {
