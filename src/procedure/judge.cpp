@@ -33,6 +33,19 @@ bool has_finding(const Case& the_case, const std::string& finding) {
       [&](const CaseFinding& found) { return found.name + "=" + found.grade == finding; });
 }
 
+std::string_view without_size(std::string_view instrument) {
+  return instrument.substr(0, instrument.find(':'));
+}
+
+bool is_in_tray(const Scenario& scenario, const Rule& rule, const std::string& instrument) {
+  const auto is_it = [&](const std::string& name) { return without_size(name) == instrument; };
+  return std::any_of(scenario.hands.begin(), scenario.hands.end(), [&](const ScenarioHand& hand) {
+    const bool meant = rule.hand.empty() || rule.hand == hand.name;
+    return meant &&
+           (is_it(hand.instrument) || std::any_of(hand.also.begin(), hand.also.end(), is_it));
+  });
+}
+
 Result<PlannedRule> plan_rule(const Rule& rule, const Scenario& scenario, const Case& the_case) {
   const RuleKind* kind = find_rule_kind(rule.kind);
   PlannedRule planned{rule, {}, kind ? kind->about : SubjectKind::kBone, kNoHand};
@@ -45,6 +58,11 @@ Result<PlannedRule> plan_rule(const Rule& rule, const Scenario& scenario, const 
   if (!rule.hand.empty() && planned.hand == kNoHand)
     return fail("the scenario has no hand '" + rule.hand + "'",
                 scenario.where + ":" + std::to_string(rule.line), "Name one of its [[hands]]");
+  for (const std::string& instrument : rule.instruments)
+    if (!is_in_tray(scenario, rule, instrument))
+      return fail("no hand that is meant may take '" + instrument + "'",
+                  scenario.where + ":" + std::to_string(rule.line),
+                  "Name an instrument of its [[hands]], without a size");
   if (planned.about == SubjectKind::kLandmark) return plan_marks(planned, scenario, the_case);
   if (planned.about == SubjectKind::kNothing) return planned;
   for (const std::string& name : rule.subjects) {
@@ -79,6 +97,13 @@ void note_error(const ScenarioPlan& plan, std::size_t error, double at_s, const 
   const std::uint32_t bone = event.subject_kind == SubjectKind::kBone ? event.subject : kNoSubject;
   state.errors.push_back({static_cast<std::uint32_t>(error), at_s, event.hand, bone});
   if (plan.scenario.errors[error].severity == Severity::kCritical) state.over = true;
+}
+
+// Whether the rule is about what a hand does with that instrument; of which its size is left out.
+bool is_of(const Rule& rule, std::string_view instrument) {
+  const auto& names = rule.instruments;
+  return names.empty() ||
+         std::find(names.begin(), names.end(), without_size(instrument)) != names.end();
 }
 
 bool is_sound(const std::string& grade) { return grade == kSoundGrade || grade == kNoFinding; }
@@ -138,14 +163,18 @@ ScenarioState begin_scenario(const ScenarioPlan& plan) {
   return state;
 }
 
-void judge(const ScenarioPlan& plan, const Event& event, double tick_s, ScenarioState& state) {
+void judge(const ScenarioPlan& plan, const Event& event, double tick_s, ScenarioState& state,
+           std::span<const std::string_view> held) {
+  const std::string_view with = event.hand < held.size() ? held[event.hand] : std::string_view();
   if (state.over) return;
   for (std::size_t i = 0; i < plan.errors.size(); ++i)
-    if (const auto hit = step_rule(plan.errors[i], event, tick_s, state.error_rules[i]))
-      note_error(plan, i, hit->at_s, event, state);
+    if (is_of(plan.errors[i].rule, with))
+      if (const auto hit = step_rule(plan.errors[i], event, tick_s, state.error_rules[i]))
+        note_error(plan, i, hit->at_s, event, state);
   if (state.over) return;
   const auto& goals = plan.goals[state.stage];
-  for (std::size_t i = 0; i < goals.size(); ++i) step_rule(goals[i], event, tick_s, state.goals[i]);
+  for (std::size_t i = 0; i < goals.size(); ++i)
+    if (is_of(goals[i].rule, with)) step_rule(goals[i], event, tick_s, state.goals[i]);
   const bool done = std::all_of(state.goals.begin(), state.goals.end(),
                                 [](const RuleState& goal) { return goal.met; });
   if (!done) return;

@@ -31,6 +31,7 @@ Rule read_rule(TomlTable& table, std::string_view key, bool is_goal) {
     return rule;
   }
   rule.hand = table.text_or("hand", "");
+  rule.instruments = table.texts_or_empty("instruments");
   if (kind->about == SubjectKind::kBone || kind->with_bone)
     rule.subjects = table.texts_or_empty("bones");
   if (kind->about == SubjectKind::kLandmark) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,8 +72,11 @@ struct ScenarioState {
 };
 
 ScenarioState begin_scenario(const ScenarioPlan& plan);
-/// Takes one event into account. Events come in the order of their ticks.
-void judge(const ScenarioPlan& plan, const Event& event, double tick_s, ScenarioState& state);
+/// Takes one event into account. Events come in the order of their ticks. `held`: by hand, what it
+/// holds, as a tray names it; of a hand that is not listed nothing is known, and rules that name
+/// instruments do not apply to it.
+void judge(const ScenarioPlan& plan, const Event& event, double tick_s, ScenarioState& state,
+           std::span<const std::string_view> held = {});
 /// The session went back to a restore point at which the attempt was `kept`: what was done since is
 /// to be done again. Errors stay made, and so does what an error's rule waits for.
 void go_back_to(const ScenarioState& kept, ScenarioState& state);

@@ -30,6 +30,8 @@ struct Rule {
   /// "old_tunnel=sound": asked only of patients who have that finding, or only of others; empty:
   /// of all.
   std::string when = {}, unless = {};
+  /// While the hand holds one of these, of whatever size; empty: whatever it holds.
+  std::vector<std::string> instruments = {};
 };
 
 /// One hand of the exercise. A scenario that names none has one with the wrist probe.

@@ -193,6 +193,7 @@ void AttemptWatch::add(std::span<const ToolState* const> tools, const BoneSnapsh
 
 void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
   fresh_.clear();
+  note_held(tools);
   for (std::size_t h = 0; h < std::min(tools.size(), events_.size()); ++h) {
     now_s_ = static_cast<double>(tools[h]->tick) * tick_s_;
     events_[h].add(*tools[h], fresh_);
@@ -215,6 +216,13 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   judge_fresh();
   if (now_s() >= plan_->scenario.time_limit_s) state_.over = true;
   if (!tools.empty() && (!part_ || tools[0]->tick > part_->from_tick)) meter_.add(*tools[0]);
+}
+
+void AttemptWatch::note_held(std::span<const ToolState* const> tools) {
+  held_.clear();
+  for (const ToolState* tool : tools)
+    held_.push_back(tool->instrument < tray_.size() ? std::string_view(tray_[tool->instrument])
+                                                    : std::string_view());
 }
 
 void AttemptWatch::set_part(const AttemptPart& part, PartStages stages) {
@@ -240,6 +248,7 @@ void AttemptWatch::watch_tunnels(TunnelSources sources) {
 }
 
 void AttemptWatch::watch_tray(const std::vector<std::string>& tray) {
+  tray_ = tray;
   std::vector<char> needles;
   for (const std::string& name : tray) needles.push_back(name.starts_with(kSpinalNeedle));
   if (portals_) portals_->set_needles(std::move(needles));
@@ -271,7 +280,7 @@ Result<Outcome> AttemptWatch::outcome_of_all(Metrics metrics, const Standard* st
 
 void AttemptWatch::judge_fresh() {
   for (const Event& event : fresh_) {
-    judge(*plan_, event, tick_s_, state_);
+    judge(*plan_, event, tick_s_, state_, held_);
     if (part_ && state_.stage > part_->stages.last) state_.over = true;
   }
 }

@@ -108,6 +108,7 @@ class AttemptWatch {
     std::size_t hand = 0;
     CutWatch watch;
   };
+  void note_held(std::span<const ToolState* const> tools);
   void judge_fresh();
   Result<Outcome> outcome_of_all(Metrics metrics, const Standard* standard,
                                  const StatedFindings& stated) const;
@@ -137,6 +138,8 @@ class AttemptWatch {
   std::optional<Part> part_;
   std::vector<ToolState> shifted_;
   std::vector<const ToolState*> shifted_tools_;
+  std::vector<std::string> tray_;       ///< by ToolState::instrument
+  std::vector<std::string_view> held_;  ///< by hand: a name of tray_, or nothing
   std::vector<Event> fresh_;
   double now_s_ = 0;
 };
