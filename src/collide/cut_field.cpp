@@ -1,7 +1,9 @@
 #include "osteon/collide/cut_field.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "cubic_spline.h"
 
@@ -13,56 +15,76 @@ constexpr double kKnownCells = 2.5;
 
 // The four nodes along an axis that decide a value: in which of two blocks, and where there.
 struct Nodes4 {
-  std::array<int, 2> block{};
+  static constexpr unsigned kSide = CutField::kSide;
+  std::array<unsigned, 2> block{};     // of the first and the last of them
+  std::array<unsigned, 4> node{};      // in its block
   std::array<std::uint8_t, 4> side{};  // of `block`
-  std::array<std::uint16_t, 4> node{};
   double t = 0;
   bool inside = false;
 
+  // No number is inside.
   Nodes4(double at, int blocks) {
-    const double low = std::floor(at);
-    t = at - low;
-    inside = low >= 1 && low + 2 < CutField::kSide * blocks;
+    inside = at >= 1 && at < CutField::kSide * blocks - 2;
     if (!inside) return;
-    const int first = static_cast<int>(low) - 1;
-    block = {first / CutField::kSide, (first + 3) / CutField::kSide};
-    for (int i = 0; i < 4; ++i) {
-      const auto n = static_cast<std::size_t>(i);
-      side[n] = (first + i) / CutField::kSide == block[0] ? 0 : 1;
-      node[n] = static_cast<std::uint16_t>((first + i) % CutField::kSide);
+    const auto low = static_cast<unsigned>(at);
+    t = at - low;
+    const unsigned first = low - 1;
+    block = {first / kSide, (first + 3) / kSide};
+    for (unsigned i = 0; i < 4; ++i) {
+      node[i] = (first + i) % kSide;
+      side[i] = first % kSide + i < kSide ? 0 : 1;
     }
   }
+  bool in_one_block() const { return side[3] == 0; }
 };
 
 using Corners = std::array<const std::int16_t*, 8>;  // of eight blocks, null where none is cut
 
 // Cuts at 4 x 4 x 4 nodes, um, x fastest: of more than one block, so that they lie nowhere in rows.
 using Nodes64 = std::array<std::int16_t, 64>;
+constexpr std::size_t kAlong = CutField::kSide;
+constexpr std::array<std::int16_t, kAlong> kNothing{
+    CutField::kUncut, CutField::kUncut, CutField::kUncut, CutField::kUncut,
+    CutField::kUncut, CutField::kUncut, CutField::kUncut, CutField::kUncut};
 
+// The block's row along x of that place, or one of nodes that nothing has cut.
+const std::int16_t* row_of(const Corners& corner, std::size_t side, unsigned y, unsigned z) {
+  const std::int16_t* block = corner[side];
+  return block ? block + kAlong * (kAlong * z + y) : kNothing.data();
+}
+
+std::uint64_t four_from(const std::int16_t* first) {
+  std::uint64_t four = 0;
+  std::memcpy(&four, first, sizeof four);
+  return four;
+}
+
+// Of each row the last nodes of one block and the first ones of the next: four of each are loaded
+// as one number, so that those that are not wanted are shifted out.
 void gather(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes4& z,
             Nodes64& out) {
+  constexpr unsigned kHalf = CutField::kSide / 2;
+  const unsigned gone = 16 * (x.node[0] - kHalf), kept = 64 - gone;
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t j = 0; j < 4; ++j) {
-      std::int16_t* row = out.data() + 16 * k + 4 * j;
-      const std::size_t first = 64u * z.node[k] + 8u * y.node[j];
-      const std::size_t blocks = 4u * z.side[k] + 2u * y.side[j];
-      for (std::size_t i = 0; i < 4; ++i) {
-        const std::int16_t* from = corner[blocks + x.side[i]];
-        row[i] = from ? from[first + x.node[i]] : CutField::kUncut;
-      }
+      const std::size_t side = 4u * z.side[k] + 2u * y.side[j];
+      const std::uint64_t low = four_from(row_of(corner, side, y.node[j], z.node[k]) + kHalf);
+      const std::uint64_t high = four_from(row_of(corner, side + 1, y.node[j], z.node[k]));
+      constexpr bool kLittle = std::endian::native == std::endian::little;
+      const std::uint64_t four =
+          kLittle ? (low >> gone) | (high << kept) : (low << gone) | (high >> kept);
+      std::memcpy(out.data() + 16 * k + 4 * j, &four, sizeof four);
     }
 }
 
 // Rows within blocks, or of nodes that nothing has cut.
 void find_rows(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes4& z,
                SplineRows& out) {
-  static constexpr std::array<std::int16_t, 4> kNothing{CutField::kUncut, CutField::kUncut,
-                                                        CutField::kUncut, CutField::kUncut};
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t j = 0; j < 4; ++j) {
-      const std::int16_t* from = corner[4u * z.side[k] + 2u * y.side[j]];
-      const std::size_t first = 64u * z.node[k] + 8u * y.node[j] + x.node[0];
-      out.row[4 * k + j] = from ? from + first : kNothing.data();
+      const std::int16_t* block = corner[4u * z.side[k] + 2u * y.side[j]];
+      out.row[4 * k + j] =
+          block ? block + kAlong * (kAlong * z.node[k] + y.node[j]) + x.node[0] : kNothing.data();
     }
 }
 
@@ -107,10 +129,14 @@ bool CutField::find(const Vec3& p_B, Around& out) const {
   if (!x.inside || !y.inside || !z.inside) return false;
   Corners corner{};
   bool any = false;
+  const auto blocks_x = static_cast<std::size_t>(grid_.blocks[0]);
+  const auto blocks_y = static_cast<std::size_t>(grid_.blocks[1]);
   for (std::size_t c = 0; c < corner.size(); ++c) {
-    const int at = (z.block[c >> 2] * grid_.blocks[1] + y.block[c >> 1 & 1]) * grid_.blocks[0] +
-                   x.block[c & 1];
-    const std::uint32_t slot = slot_[static_cast<std::size_t>(at)];
+    const std::size_t from_x = c & 1, from_y = c >> 1 & 1, from_z = c >> 2;
+    if (from_x > x.side[3] || from_y > y.side[3] || from_z > z.side[3]) continue;
+    const std::size_t at =
+        (z.block[from_z] * blocks_y + y.block[from_y]) * blocks_x + x.block[from_x];
+    const std::uint32_t slot = slot_[at];
     if (slot == kNone) continue;
     corner[c] = nodes_[slot].data();
     any = true;
@@ -118,7 +144,7 @@ bool CutField::find(const Vec3& p_B, Around& out) const {
   if (!any) return false;
   out.rows.most = static_cast<std::int16_t>(farthest_um_);
   out.t = {x.t, y.t, z.t};
-  if (x.side[3] == 0) {
+  if (x.in_one_block()) {
     find_rows(corner, x, y, z, out.rows);
     return true;
   }

@@ -11,17 +11,23 @@ namespace {
 // Tools farther apart than both hands may bring them together in a tick, and this, do not meet, m.
 constexpr double kRoom_m = 0.002;
 
-// Whether the balls about two parts are farther apart than that.
-bool are_apart(const RoundBox& a, const RoundBox& b, double far_m) {
-  const double reach = reach_of(a) + reach_of(b) + far_m;
-  return (middle_of(a) - middle_of(b)).squaredNorm() > reach * reach;
-}
-
 }  // namespace
 
 ToolWalls::ToolWalls(const Tool& own, std::span<const std::shared_ptr<const Tool>> tray)
-    : own_(tool_shapes(own)) {
-  for (const auto& tool : tray) tray_.push_back(tool_shapes(*tool));
+    : own_(parts_of(own)) {
+  std::size_t most = 0;
+  for (const auto& tool : tray) {
+    tray_.push_back(parts_of(*tool));
+    most = std::max(most, tray_.back().size());
+  }
+  middles_W_.resize(most);
+}
+
+std::vector<ToolWalls::Part> ToolWalls::parts_of(const Tool& tool) {
+  std::vector<Part> parts;
+  for (const RoundBox& box : tool_shapes(tool))
+    parts.push_back({box, middle_of(box), reach_of(box)});
+  return parts;
 }
 
 void ToolWalls::start(const OtherTools& before, const OtherTools& now, const Pose& X_WT,
@@ -45,16 +51,21 @@ void ToolWalls::find(const OtherTools& line_from, const OtherTools& now, const P
 }
 
 // Along n, the unit vector from the other's part to this one: where the two hands want the parts'
-// surfaces is `mine` and `theirs`, and the wall stands between the two.
+// surfaces is `mine` and `theirs`, and the wall stands between the two. Most parts are far apart:
+// the balls about them say so before anything is put in its place.
 void ToolWalls::meet(std::uint32_t hand, const OtherTool& line_from, const OtherTool& now,
                      const Pose& X_WT, const Vec3& to_hand_W) {
   const Vec3 to_their_hand_W = now.p_WD - now.X_WP.p;
   const double nearby = to_hand_W.norm() + to_their_hand_W.norm() + kRoom_m;
+  const std::vector<Part>& others = tray_[now.instrument];
+  for (std::size_t k = 0; k < others.size(); ++k) middles_W_[k] = now.X_WP * others[k].middle_T;
   for (std::uint32_t r = 0; r < own_.size(); ++r) {
-    const RoundBox mine_W = placed(X_WT, own_[r]);
-    for (const RoundBox& part : tray_[now.instrument]) {
-      const RoundBox theirs_W = placed(now.X_WP, part);
-      if (are_apart(mine_W, theirs_W, nearby)) continue;
+    const Vec3 middle_W = X_WT * own_[r].middle_T;
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      const double reach = own_[r].reach_m + others[k].reach_m + nearby;
+      if ((middle_W - middles_W_[k]).squaredNorm() > reach * reach) continue;
+      const RoundBox& part = others[k].box;
+      const RoundBox mine_W = placed(X_WT, own_[r].box), theirs_W = placed(now.X_WP, part);
       const AxisPoints line = nearest_on_cores(mine_W, placed(line_from.X_WP, part));
       const Vec3 apart = line.a - line.b;
       const double distance = apart.norm();
@@ -84,7 +95,7 @@ void ToolWalls::raise(const Quat& q_WT, std::span<FreeHalfSpace> out) const {
   for (std::uint32_t i = 0; i < count_; ++i) {
     const Wall& wall = walls_[i];
     const Vec3 n_T = q_WT.conjugate() * wall.n_W;
-    out[i] = {wall.n_W, wall.level - lowest(own_[wall.part], n_T)};
+    out[i] = {wall.n_W, wall.level - lowest(own_[wall.part].box, n_T)};
   }
 }
 

@@ -42,6 +42,11 @@ class ToolWalls {
   void raise(const Quat& q_WT, std::span<FreeHalfSpace> out) const;
 
  private:
+  struct Part {
+    RoundBox box;
+    Vec3 middle_T = Vec3::Zero();
+    double reach_m = 0;  ///< of all of it about its middle
+  };
   struct Wall {
     std::uint32_t hand = 0;
     std::uint32_t part = 0;  // of this tool
@@ -56,8 +61,11 @@ class ToolWalls {
             const Vec3& to_hand_W);
   void keep(const Wall& wall);
 
-  std::vector<RoundBox> own_;
-  std::vector<std::vector<RoundBox>> tray_;
+  static std::vector<Part> parts_of(const Tool& tool);
+
+  std::vector<Part> own_;
+  std::vector<std::vector<Part>> tray_;
+  std::vector<Vec3> middles_W_;  ///< of the other's parts, while one is met
   std::array<Wall, kMostPlanes> walls_{};
   std::uint32_t count_ = 0;
 };
