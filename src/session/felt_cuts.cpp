@@ -7,6 +7,8 @@ namespace {
 
 CutGrid grid_of(const BlockGrid& grid) { return {grid.cell_m, grid.lo, grid.blocks}; }
 
+constexpr std::size_t kOfSomeSteps = 128;  // of a wide drill two, of most instruments more
+
 void fill(CarvePatch& patch, const CarvedField& field, std::uint32_t block) {
   patch.kind = CarvePatch::Kind::kBlock;
   patch.block = block;
@@ -41,7 +43,8 @@ std::size_t channel_places(const CarvingSetup& setup) {
   return kSecondOfDrilling + carved * setup.most_blocks;
 }
 
-FeltCuts::FeltCuts(const CarvingSetup& setup, std::size_t places) : channel_(places) {
+FeltCuts::FeltCuts(const CarvingSetup& setup, std::size_t places)
+    : channel_(std::min(places, kOfSomeSteps), places) {
   for (const auto& bone : setup.bones) {
     bones_.emplace_back();
     if (bone)
@@ -98,9 +101,11 @@ void FeltCuts::send_late() {
 
 // Each round sends as much as the channel holds.
 void FeltCuts::catch_up() {
-  CarvePatch patch;
   while (behind()) {
-    while (channel_.pop(patch)) early_.push_back(patch);
+    for (const CarvePatch* next = channel_.front(); next; next = channel_.front()) {
+      early_.push_back(*next);
+      channel_.drop();
+    }
     send_late();
   }
 }
@@ -109,8 +114,7 @@ void FeltCuts::copy(const Carving& carving) {
   late_.clear();
   early_.clear();
   CarvePatch patch;
-  while (channel_.pop(patch)) {
-  }
+  while (channel_.front()) channel_.drop();
   for (std::uint32_t b = 0; b < bones_.size(); ++b) {
     const CarvedField* field = carving.field(b);
     if (!field || !bones_[b]) continue;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "event_list.h"
-#include "osteon/base/bounded_queue.h"
+#include "osteon/base/warm_queue.h"
 #include "osteon/haptic/haptic.h"
 #include "osteon/physics/carving.h"
 
@@ -22,7 +22,7 @@ struct CarvePatch {
   std::array<std::int16_t, CutField::kNodes> cut{};
   Event event;
 };
-using CarveChannel = BoundedQueue<CarvePatch>;
+using CarveChannel = WarmQueue<CarvePatch>;
 /// Room for all blocks of a bone that comes back, for each bone, and a second of drilling besides.
 std::size_t channel_places(const CarvingSetup& setup);
 
