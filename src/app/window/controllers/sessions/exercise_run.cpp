@@ -350,9 +350,9 @@ bool ExerciseRun::follow(const BoneSnapshot& bones) {
 }
 
 bool ExerciseRun::asks_again(std::optional<std::size_t> for_stage) {
-  constexpr double kSoonAgain_s = 5;
-  const bool again =
-      end_asked_ && end_asked_->for_stage == for_stage && now_s_ - end_asked_->at_s < kSoonAgain_s;
+  constexpr double kSoonAgain_s = 5, kSoonInList_s = 15;
+  const bool again = end_asked_ && end_asked_->for_stage == for_stage &&
+                     now_s_ - end_asked_->at_s < (for_stage ? kSoonInList_s : kSoonAgain_s);
   end_asked_ = AskedToEnd{now_s_, for_stage};
   return again;
 }
