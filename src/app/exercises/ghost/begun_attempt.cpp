@@ -95,6 +95,14 @@ bool is_of_this_build(const std::filesystem::path& expert) {
   return reader && reader->complete() && reader->header().osteon_version == OSTEON_VERSION;
 }
 
+// Who works to the exercise's end need not wait for all that the expert would do: he plays the rest
+// meanwhile, to be shown.
+GhostWanted as_far_as(const GhostWanted& wanted, PartStages stages) {
+  GhostWanted begin = wanted;
+  if (begin.to_stage.empty()) begin.to_stage = begin.scenario.stages[stages.first - 1].name;
+  return begin;
+}
+
 // He plays once for a patient, in minutes.
 std::string expert_plays(int for_s) {
   char time[16];
@@ -108,7 +116,8 @@ Result<BegunAttempt> begin_attempt(const BegunAttemptOrder& order, const Progres
   const auto stages = stages_of(order.part, order.wanted.scenario);
   if (!stages) return tl::unexpected(stages.error());
   if (stages->first == 0) return fail("nothing comes before this stage", order.part.from);
-  const std::filesystem::path kept = kept_expert(order.wanted);
+  const GhostWanted wanted = as_far_as(order.wanted, *stages);
+  const std::filesystem::path kept = kept_expert(wanted);
   std::error_code ec;
   if (std::filesystem::exists(kept, ec) && !is_of_this_build(kept))
     std::filesystem::remove(kept, ec);
@@ -123,7 +132,7 @@ Result<BegunAttempt> begin_attempt(const BegunAttemptOrder& order, const Progres
     told_s = now_s;
     return progress(expert_plays(now_s).c_str(), 0);
   };
-  const auto expert = recorded_expert(order.wanted, go_on, order.program);
+  const auto expert = recorded_expert(wanted, go_on, order.program);
   if (!expert) return tl::unexpected(expert.error());
   // Who has never recorded anything has no folder for it yet.
   std::filesystem::create_directories(order.file.parent_path(), ec);

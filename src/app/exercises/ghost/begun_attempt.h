@@ -34,10 +34,10 @@ struct BegunAttemptOrder {
   std::filesystem::path program = {};  ///< that lets the expert work; empty: this one
 };
 
-/// Lets the virtual expert perform the exercise on this patient, up to `wanted.to_stage`, where
-/// that is not known yet, and repeats what he did until the part's first stage begins. Takes a
-/// tenth of that time or more. Fails where he does not come so far, and once `progress` says so;
-/// then no file is left.
+/// Lets the virtual expert perform the exercise on this patient, where that is not known yet: up to
+/// `wanted.to_stage`, or to the part's begin where that is empty. Repeats what he did until the
+/// part's first stage begins, which takes a tenth of that time or more. Fails where he does not
+/// come so far, and once `progress` says so; then no file is left.
 Result<BegunAttempt> begin_attempt(const BegunAttemptOrder& order, const Progress& progress);
 
 }  // namespace osteon

@@ -17,11 +17,13 @@ void draw_row(const HandRow& row) {
   std::string what = row.runs ? "Running: " : "";
   if (!row.portal.empty()) what += "in " + row.portal + ": ";
   what += row.instrument;
-  ui::stat(name.c_str(), ui::shortened(what, ImGui::GetContentRegionAvail().x * 0.68f),
-           row.rests ? "Rests as if an assistant held it. Alt + wheel moves it along its shaft, "
-                       "Alt + Q, E turns it about its shaft (a scope's light post), Alt + W, A, S, "
-                       "D tilts it. A gamepad's sticks, triggers and bumpers do the same."
-                     : "The instrument that this hand holds",
+  const std::string fits = ui::shortened(what, ImGui::GetContentRegionAvail().x * 0.68f);
+  std::string help = fits == what ? "" : what + "\n";
+  help += row.rests ? "Rests as if an assistant held it. Alt + wheel moves it along its shaft, "
+                      "Alt + Q, E turns it about its shaft (a scope's light post), Alt + W, A, S, "
+                      "D tilts it. A gamepad's sticks, triggers and bumpers do the same."
+                    : "The instrument that this hand holds";
+  ui::stat(name.c_str(), fits, help.c_str(),
            row.runs     ? color::kAccent
            : row.active ? color::kText
                         : color::kTextQuiet);

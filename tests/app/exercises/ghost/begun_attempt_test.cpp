@@ -193,6 +193,18 @@ TEST_F(BegunAttemptTest, TheFirstRecordingOfAllMakesItsFolder) {
     EXPECT_EQ(what.find("so far"), std::string::npos) << "he need not play again";
 }
 
+// Of an expert who was not seen to the end, what comes before the part will do.
+TEST_F(BegunAttemptTest, WhoGoesOnToTheEndNeedsTheBeginAlone) {
+  GhostWanted begin = wanted;
+  begin.to_stage = "metacarpals";
+  fs::rename(expert_recording(wanted), expert_recording(begin));
+  const auto begun = begin_attempt(order_of({"forearm", "forearm"}), go_on);
+  const auto earlier = begin_attempt(order_of({"metacarpals", "forearm"}), go_on);
+  fs::rename(expert_recording(begin), expert_recording(wanted));
+  EXPECT_TRUE(begun) << begun.error().message();
+  EXPECT_FALSE(earlier) << "of what comes before that stage there is none";
+}
+
 // What cannot be repeated is recorded anew, by a program that is not there.
 TEST_F(BegunAttemptTest, ADamagedRecordingOfTheExpertIsNotUsed) {
   const fs::path kept = dir / "kept.osr";
