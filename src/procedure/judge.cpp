@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rule_instruments.h"
 #include "rules/rules.h"
 
 namespace osteon {
@@ -31,19 +32,6 @@ bool has_finding(const Case& the_case, const std::string& finding) {
   return std::any_of(
       the_case.findings.begin(), the_case.findings.end(),
       [&](const CaseFinding& found) { return found.name + "=" + found.grade == finding; });
-}
-
-std::string_view without_size(std::string_view instrument) {
-  return instrument.substr(0, instrument.find(':'));
-}
-
-bool is_in_tray(const Scenario& scenario, const Rule& rule, const std::string& instrument) {
-  const auto is_it = [&](const std::string& name) { return without_size(name) == instrument; };
-  return std::any_of(scenario.hands.begin(), scenario.hands.end(), [&](const ScenarioHand& hand) {
-    const bool meant = rule.hand.empty() || rule.hand == hand.name;
-    return meant &&
-           (is_it(hand.instrument) || std::any_of(hand.also.begin(), hand.also.end(), is_it));
-  });
 }
 
 Result<PlannedRule> plan_rule(const Rule& rule, const Scenario& scenario, const Case& the_case) {
@@ -97,13 +85,6 @@ void note_error(const ScenarioPlan& plan, std::size_t error, double at_s, const 
   const std::uint32_t bone = event.subject_kind == SubjectKind::kBone ? event.subject : kNoSubject;
   state.errors.push_back({static_cast<std::uint32_t>(error), at_s, event.hand, bone});
   if (plan.scenario.errors[error].severity == Severity::kCritical) state.over = true;
-}
-
-// Whether the rule is about what a hand does with that instrument; of which its size is left out.
-bool is_of(const Rule& rule, std::string_view instrument) {
-  const auto& names = rule.instruments;
-  return names.empty() ||
-         std::find(names.begin(), names.end(), without_size(instrument)) != names.end();
 }
 
 bool is_sound(const std::string& grade) { return grade == kSoundGrade || grade == kNoFinding; }

@@ -6,6 +6,7 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/scenario.h"
+#include "rule_instruments.h"
 
 namespace osteon {
 namespace {
@@ -32,6 +33,7 @@ class ScenarioChecker {
         bones_are_there(goal);
         marks_can_be_seen(goal);
         press_is_allowed(goal);
+        instruments_can_be_taken(goal);
         if (const auto n = goal.numbers.find("for_s"); n != goal.numbers.end())
           least_s += static_cast<double>(count_of(goal)) * n->second;
       }
@@ -43,6 +45,7 @@ class ScenarioChecker {
     for (const ScenarioError& error : scenario_.errors) {
       once(error.name, "error", error.rule.line);
       bones_are_there(error.rule);
+      instruments_can_be_taken(error.rule);
     }
     for (const ScenarioHand& hand : scenario_.hands) {
       once(hand.name, "hand", hand.line);
@@ -92,6 +95,13 @@ class ScenarioChecker {
     if (rule.numbers.at("near_mm") + rule.numbers.at("span_mm") >= rule.numbers.at("far_mm"))
       say(rule.line, "the rule '" + rule.kind +
                          "' can never be met: far_mm leaves no room beyond near_mm and span_mm");
+  }
+
+  void instruments_can_be_taken(const Rule& rule) {
+    for (const std::string& name : rule.instruments)
+      if (!is_in_tray(scenario_, rule, name))
+        say(rule.line, "the rule '" + rule.kind + "' can never be met: no hand may take '" + name +
+                           "'; name an instrument of its [[hands]], without a size");
   }
 
   // A goal that asks for a press which is itself an error that cannot be passed with.

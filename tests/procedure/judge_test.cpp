@@ -87,49 +87,11 @@ Event touch_end(double time_s, std::uint32_t bone, double for_s = 0.3, double pe
   return at(time_s, EventKind::kContactEnd, bone, {for_s, peak_n, 0.1});
 }
 
-// Both stages, the second one for the hook alone.
-Scenario with_hook(const std::string& instruments) {
-  std::string text = kText;
-  text.insert(text.find("[[stages]]"),
-              "[[hands]]\nname = \"right\"\ninstrument = \"hook_probe\"\nalso = "
-              "[\"trocar_blunt\", \"graft_sizer:8\"]\n\n");
-  text.insert(text.find("bones = [\"lunate\", \"radius\"]"), "instruments = " + instruments + "\n");
-  auto scenario = parse_scenario(text, "two.toml");
-  EXPECT_TRUE(scenario) << scenario.error().message();
-  return std::move(*scenario);
-}
-
 ScenarioState judged(const std::vector<Event>& events) {
   const ScenarioPlan plan = plan_two();
   ScenarioState state = begin_scenario(plan);
   for (const Event& event : events) judge(plan, event, 0.001, state);
   return state;
-}
-
-TEST(Judge, ARuleThatNamesInstrumentsIsMetWithOneOfThemAlone) {
-  const auto plan = plan_scenario(with_hook("[\"hook_probe\", \"graft_sizer\"]"),
-                                  testing::named_case({"radius", "lunate"}));
-  ASSERT_TRUE(plan) << plan.error().message();
-  const auto stage_after = [&](std::vector<std::string_view> held) {
-    ScenarioState state = begin_scenario(*plan);
-    double time_s = 0;
-    for (const std::uint32_t bone : {0u, 1u, 1u, 0u})
-      judge(*plan, touch_end(++time_s, bone), 0.001, state, held);
-    return state.stage;
-  };
-  EXPECT_EQ(stage_after({}), 1u) << "nobody knows what is held; the first stage does not ask";
-  EXPECT_EQ(stage_after({""}), 1u);
-  EXPECT_EQ(stage_after({"trocar_blunt"}), 1u);
-  EXPECT_EQ(stage_after({"trocar_blunt", "hook_probe"}), 1u) << "in the other hand";
-  EXPECT_EQ(stage_after({"hook_probe"}), 2u);
-  EXPECT_EQ(stage_after({"graft_sizer:8"}), 2u) << "of whatever size";
-}
-
-TEST(Judge, AnInstrumentThatNoHandMayTakeIsAnError) {
-  const auto plan =
-      plan_scenario(with_hook("[\"shaver\"]"), testing::named_case({"radius", "lunate"}));
-  ASSERT_FALSE(plan);
-  EXPECT_NE(plan.error().message().find("'shaver'"), std::string::npos);
 }
 
 TEST(Scenario, ErrorsNameTheLine) {
