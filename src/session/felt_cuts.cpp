@@ -44,7 +44,7 @@ std::size_t channel_places(const CarvingSetup& setup) {
 }
 
 FeltCuts::FeltCuts(const CarvingSetup& setup, std::size_t places)
-    : channel_(std::min(places, kOfSomeSteps), places) {
+    : channel_(std::min(places, kOfSomeSteps), places - std::min(places, kOfSomeSteps)) {
   for (const auto& bone : setup.bones) {
     bones_.emplace_back();
     if (bone)

@@ -8,11 +8,11 @@
 namespace osteon {
 namespace {
 
-constexpr double kApart_m = 0.025;   // between two hands when they come in
-constexpr double kBefore_m = 0.012;  // before a portal
-constexpr double kStandsBefore_m = 0.02;
-constexpr double kPortalReach_m = 0.03;  // a portal that a hand was brought to leads it so far
-constexpr double kNearEnough_m = 0.03;   // of the tip from bone: the line is drawn
+constexpr double kApart_m = 0.025;        // between two hands when they come in
+constexpr double kBefore_m = 0.012;       // before a portal
+constexpr double kStandsThere_m = 0.003;  // where a hand is brought to
+constexpr double kPortalReach_m = 0.03;   // a portal that a hand was brought to leads it so far
+constexpr double kNearEnough_m = 0.03;    // of the tip from bone: the line is drawn
 
 std::string capital(std::string name) {
   if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 32);
@@ -218,8 +218,9 @@ std::size_t HandsControl::free_way(std::span<const WayIn> ways, std::size_t from
   if (ways.empty()) return 0;
   const std::vector<ToolState> others = live_.run()->others();
   const auto is_free = [&](const WayIn& way) {
+    const Vec3 before_W = way.p_W - kBefore_m * way.inwards_W;
     return std::none_of(others.begin(), others.end(), [&](const ToolState& tool) {
-      return tool.portal == way.portal || (tool.X_WP.p - way.p_W).norm() < kStandsBefore_m;
+      return tool.portal == way.portal || (tool.X_WP.p - before_W).norm() < kStandsThere_m;
     });
   };
   for (std::size_t n = 0; n < ways.size(); ++n)
