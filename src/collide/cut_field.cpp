@@ -22,7 +22,7 @@ struct Nodes4 {
   double t = 0;
   bool inside = false;
 
-  // No number is inside.
+  // What is not a number is not inside.
   Nodes4(double at, int blocks) {
     inside = at >= 1 && at < CutField::kSide * blocks - 2;
     if (!inside) return;
@@ -81,11 +81,9 @@ void gather(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes
 void find_rows(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes4& z,
                SplineRows& out) {
   for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t j = 0; j < 4; ++j) {
-      const std::int16_t* block = corner[4u * z.side[k] + 2u * y.side[j]];
+    for (std::size_t j = 0; j < 4; ++j)
       out.row[4 * k + j] =
-          block ? block + kAlong * (kAlong * z.node[k] + y.node[j]) + x.node[0] : kNothing.data();
-    }
+          row_of(corner, 4u * z.side[k] + 2u * y.side[j], y.node[j], z.node[k]) + x.node[0];
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rule_instruments.h"
+#include "rules/rule_instruments.h"
 #include "rules/rules.h"
 
 namespace osteon {

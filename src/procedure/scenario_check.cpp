@@ -6,7 +6,7 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/scenario.h"
-#include "rule_instruments.h"
+#include "rules/rule_instruments.h"
 
 namespace osteon {
 namespace {

@@ -11,8 +11,9 @@ namespace osteon {
 /// `rest` more when these are full.
 ///
 /// Order: while anything is in the rest, the producer adds there alone; so all that is in the few
-/// places is older. The consumer looks at the rest first: if it finds something there, everything
-/// older was put into the few places before, and is seen.
+/// places is older. It sees that the rest is empty as the consumer does, by `front`, which only
+/// reads. The consumer looks at the rest first: if it finds something there, everything older was
+/// put into the few places before, and is seen.
 template <class T>
 class WarmQueue {
  public:

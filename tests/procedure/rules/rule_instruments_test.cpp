@@ -1,11 +1,11 @@
 // Rules about what a hand does with some instruments alone.
-#include "rule_instruments.h"
+#include "rules/rule_instruments.h"
 
 #include <gtest/gtest.h>
 
+#include "../report_fixtures.h"
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/judge.h"
-#include "report_fixtures.h"
 
 namespace osteon {
 namespace {
