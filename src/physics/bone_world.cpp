@@ -416,7 +416,7 @@ void BoneWorld::set_water(const WaterState& water) { impl_->snapshot.water = wat
 
 void BoneWorld::set_loose(const LooseBones& loose) { impl_->snapshot.loose = loose; }
 
-void BoneWorld::set_cleared(double percent) { impl_->snapshot.cleared_percent = percent; }
+void BoneWorld::set_softs(const SoftTold& told) { impl_->snapshot.softs = told; }
 
 void BoneWorld::set_inside(std::size_t hand, const InsideList& list) {
   impl_->snapshot.inside[hand] = list;

@@ -26,10 +26,10 @@ std::optional<bool> StumpWatch::is_tip_watched(std::span<const ToolState* const>
 // Less than was known: a restore point has brought it back.
 void StumpWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                      bool obscured, std::vector<Event>& out) {
-  felt_ = bones.cleared_percent >= 0;
+  felt_ = bones.softs.cleared_percent >= 0;
   if (!felt_ || tools.empty()) return;
-  const double more =
-      bones.cleared_percent - std::exchange(cleared_percent_, bones.cleared_percent);
+  const double now_percent = bones.softs.cleared_percent;
+  const double more = now_percent - std::exchange(cleared_percent_, now_percent);
   if (more > 0 && (obscured || !is_tip_watched(tools, bones).value_or(false)))
     blind_percent_ += more;
   blind_percent_ = std::min(blind_percent_, cleared_percent_);

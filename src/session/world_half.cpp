@@ -111,7 +111,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
 
 void WorldHalf::step_softs(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
   softs_->step(tools, bones, carving_ ? carving_->fields() : std::span<const CarvedField* const>());
-  world_.set_cleared(softs_->world().all_cleared_percent());
+  world_.set_softs(softs_->world().told());
   if (carving_ && softs_->world().setup().pieces_are_stopped) {
     if (softs_->world().ground_parts())
       carving_->stir_pieces();
@@ -352,7 +352,7 @@ void WorldHalf::go_back(const WorldMark& mark) {
   world_.go_back(mark.bones, mark.hold);
   if (water_) world_.set_water(JointWater::gone_back(mark.bones.water, world_.snapshot().water));
   if (softs_) softs_->go_back(mark.softs, world_.snapshot().epoch);
-  if (softs_) world_.set_cleared(softs_->world().all_cleared_percent());
+  if (softs_) world_.set_softs(softs_->world().told());
   if (rings_) rings_->go_back(mark.rings);
   if (bench_) world_.set_bench(GraftBenchWork::gone_back(mark.bones.bench));
   make_placing(mark.bones.placing);
@@ -452,7 +452,7 @@ void WorldHalf::restore(const WorldState& from) {
   }
   if (softs_) softs_->restore(from.softs, from.bones.epoch);
   show_loose();
-  if (softs_) world_.set_cleared(softs_->world().all_cleared_percent());
+  if (softs_) world_.set_softs(softs_->world().told());
   if (rings_) rings_->restore(from.rings);
   knee_.restore(from.knee);
   marks_ = from.marks;

@@ -33,7 +33,7 @@ struct StumpWatchRig {
   std::vector<Event> add(std::uint64_t tick, double percent) {
     std::vector<Event> out;
     BoneSnapshot bones = rest_snapshot(*the_case);
-    bones.cleared_percent = percent;
+    bones.softs.cleared_percent = percent;
     scope.tick = shaver.tick = tick;
     const std::array<const ToolState*, 2> tools{&scope, &shaver};
     watch->add(tools, bones, obscured, out);

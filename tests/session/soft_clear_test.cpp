@@ -146,7 +146,7 @@ TEST(SoftClear, MownDownItIsClearedAndTheFootprintStays) {
   hand.rest(60);
   EXPECT_GT(hand.cleared(), 90);
   EXPECT_EQ(hand.cleared(1), 0);
-  EXPECT_NEAR(session.bones().cleared_percent, 0.5 * hand.cleared(), 1);
+  EXPECT_NEAR(session.bones().softs.cleared_percent, 0.5 * hand.cleared(), 1);
   // 10 x 10 mm: at least half of the lowest 1.5 mm are left on the bone.
   EXPECT_LT(hand.removed_mm3(), 10 * 10 * 12 - 0.5 * 10 * 10 * 1.5);
   std::vector<double> told;
@@ -230,7 +230,7 @@ TEST(SoftClear, AStateGoesOnTheSameAndUndoBringsItBack) {
   hand.tick({CommandKind::kRestore, 0});
   hand.rest(10);
   EXPECT_EQ(hand.cleared(), 0);
-  EXPECT_EQ(session.bones().cleared_percent, 0);
+  EXPECT_EQ(session.bones().softs.cleared_percent, 0);
 }
 
 TEST(SoftClear, AReplayClearsTheSame) {

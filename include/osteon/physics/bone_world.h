@@ -71,8 +71,8 @@ class BoneWorld {
   void set_water(const WaterState& water);
   /// Pieces that lie loose, for the next step's snapshot.
   void set_loose(const LooseBones& loose);
-  /// How much of stumps of torn ligaments is cleared after a step.
-  void set_cleared(double percent);
+  /// What is to be told of soft parts after a step.
+  void set_softs(const SoftTold& told);
   /// What the tip of a hand's instrument is in after a step.
   void set_inside(std::size_t hand, const InsideList& list);
   /// Mass, centre and inertia of a bone from now on: those of the whole one less what it has lost,

@@ -46,9 +46,10 @@ struct SoftSetup {
   bool hooks_tear = false;    ///< off a solid, as jaws do
   bool punches_bite = false;  ///< strands off bands
   std::vector<std::optional<SolidCutter>> biters;  ///< by the tray: what bites bands
-  bool wounds_open = false;  ///< what retracts holds the lips of cut skin apart
-  SoftFriction friction;     ///< of instruments on it; none unless told
-  std::uint64_t hash = 0;    ///< over all of it
+  bool clearers_part = false;  ///< what clears takes strands of bands that it presses, as it runs
+  bool wounds_open = false;    ///< what retracts holds the lips of cut skin apart
+  SoftFriction friction;       ///< of instruments on it; none unless told
+  std::uint64_t hash = 0;      ///< over all of it
 };
 /// Lets instruments cut bands, by their places in the tray. Nothing changes where there are none.
 void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutting_n);
@@ -75,6 +76,9 @@ void let_presses_be_bounded(SoftSetup& setup);
 /// A hook tears off what jaws would (let_bridges_tear), and a punch bites strands off bands.
 /// Nothing changes where neither bands nor solids are cut.
 void let_hooks_tear_and_punches_bite(SoftSetup& setup);
+/// What clears takes strands of the bands that it presses then, while it runs. Nothing changes
+/// where there are no bands, or nothing in the tray clears.
+void let_clearers_part_bands(SoftSetup& setup);
 /// Bands are cut and torn strand by strand then. Nothing changes where there are none.
 void let_bands_part_by_strands(SoftSetup& setup);
 /// What jaws pull tears off a cut solid then, where too little of it is left. Nothing changes where

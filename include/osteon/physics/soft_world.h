@@ -9,6 +9,7 @@
 #include "osteon/physics/soft_state.h"
 #include "osteon/scene/event.h"
 #include "osteon/scene/soft_pushes.h"
+#include "osteon/scene/soft_told.h"
 #include "osteon/scene/state.h"
 #include "osteon/scene/tool.h"
 
@@ -80,6 +81,7 @@ class SoftWorld {
   /// Of a stump, how much of what is to be cleared is gone; 0 of other solids.
   double cleared_percent(std::size_t solid) const;
   double all_cleared_percent() const;  ///< of all stumps together; -1: there are none
+  SoftTold told() const;               ///< after the last step
   /// What the hand's ticks are to know of the last step.
   BandContacts contacts(std::size_t hand) const;
   const BandReadout& readout(std::size_t band) const { return readouts_[band]; }
@@ -125,6 +127,7 @@ class SoftWorld {
   bool is_felt(std::size_t band) const;
   bool is_blade(std::uint32_t instrument, std::size_t part) const;
   bool is_working_end(std::uint32_t instrument, std::size_t part) const;
+  bool clears_now(const Hand& hand, const BandContact& contact) const;
   void wound(std::size_t band, const Vec3& p_W, double area_m2);
   void wound_ends(std::size_t band, double share);
   void wound_solids(const Hand& hand, const BoneSnapshot& bones);
@@ -178,6 +181,7 @@ class SoftWorld {
   double coupling_n_per_m_, limit_n_, step_s_;
   SoftState state_;
   std::uint32_t epoch_ = 0;
+  std::uint64_t step_ = 0;  ///< the last one, as bones count them
   std::array<BandSpan, kMaxBands> spans_{};
   std::array<BandReadout, kMaxBands> readouts_{};
   std::array<StrandAxes, kMaxBands> sections_{};

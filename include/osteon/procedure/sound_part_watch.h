@@ -18,9 +18,14 @@ namespace osteon {
 /// kTellSoundPart ticks of that.
 inline constexpr EventKind kSoundPartCleared{472};
 inline constexpr std::uint64_t kTellSoundPart = 50;
+/// A ligament or meniscus that is felt has lost something to an instrument: {mm3 that are gone of
+/// it; % of its strands; the one of both that counts, as it was when it was last told}. By whole
+/// mm3 or percents; the hand of an event is the first. Less than was told, after a restore point,
+/// is no event.
+inline constexpr EventKind kSoundPartLost{473};
 
-/// Follows the tips of instruments that clear, by what tools and snapshots say: a function of them,
-/// so that a replay finds the same.
+/// Follows the tips of instruments that clear, and what sound parts have lost, by what tools and
+/// snapshots say: a function of them, so that a replay finds the same.
 class SoundPartWatch {
  public:
   /// `clears`: by place in the tray. The case must outlive it.
@@ -33,12 +38,14 @@ class SoundPartWatch {
   struct Visit {
     std::uint64_t first_step = 0, ticks = 0;
   };
-  bool is_sound(const Inside& inside) const;
+  bool is_sound(SubjectKind kind, std::uint32_t soft) const;
+  void tell_losses(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out);
 
   const Case* case_;
   std::vector<char> clears_;
   double tick_s_;
   std::map<std::pair<std::size_t, std::uint32_t>, Visit> visits_;  ///< by hand and part
+  std::map<std::uint32_t, double> lost_;                           ///< by part, as it was told
 };
 
 }  // namespace osteon

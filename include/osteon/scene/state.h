@@ -13,6 +13,7 @@
 #include "osteon/scene/knee_exam.h"
 #include "osteon/scene/loose_bone.h"
 #include "osteon/scene/placing.h"
+#include "osteon/scene/soft_told.h"
 #include "osteon/scene/tool_guide.h"
 #include "osteon/scene/water_state.h"
 
@@ -52,10 +53,11 @@ struct BoneSnapshot {
   KneeExamState exam{};         ///< off: nobody has told how the knee gives
   WaterState water{};           ///< off: the case has no joint that is filled
   LooseBones loose{};           ///< pieces of bone that were cut off
-  double cleared_percent = -1;  ///< of stumps of torn ligaments, all together; -1: there are none
+  SoftTold softs{};             ///< of what is soft and felt
   std::array<InsideList, kMaxHands> inside{};  ///< what the tip of each hand's instrument is in
 };
 static_assert(kBenchHands == kMaxHands && kPlacingHands == kMaxHands);
+static_assert(std::tuple_size_v<decltype(SoftTold::touches)> == kMaxHands);
 
 /// One place where the tool touches a bone.
 struct Contact {

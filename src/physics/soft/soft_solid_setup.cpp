@@ -218,6 +218,20 @@ void let_hooks_tear_and_punches_bite(SoftSetup& setup) {
   if (setup.punches_bite) tell_hash(setup, "punches bite");
 }
 
+void let_clearers_part_bands(SoftSetup& setup) {
+  if (!setup.by_strands) return;
+  Hasher h;
+  for (const std::optional<SolidCutter>& with : setup.biters) {
+    if (!with || with->way != SolidCutter::Way::kClear) continue;
+    setup.clearers_part = true;
+    h.add(with->speed_m_per_s);
+  }
+  if (!setup.clearers_part) return;
+  h.add(setup.hash);
+  setup.hash = h.value();
+  tell_hash(setup, "what clears parts bands");
+}
+
 void let_bands_part_by_strands(SoftSetup& setup) {
   if (setup.bands.empty()) return;
   setup.by_strands = true;

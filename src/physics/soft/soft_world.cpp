@@ -275,7 +275,9 @@ void SoftWorld::press(Hand& hand) {
     near.bend_W = -press.bent_m * near.contact.nhat_W;
     near.at_share = share_of(b, press.p_W);
     keep_bend(near.contact, press, part_W.rod.radius);
-    if (press.force_n > setup_->cutting_n && is_blade(state.instrument, near.contact.part)) {
+    const bool sliced =
+        press.force_n > setup_->cutting_n && is_blade(state.instrument, near.contact.part);
+    if (sliced || (press.force_n > kNick_n && clears_now(hand, near.contact))) {
       hand.cuts[b] = true;
       hand.edge_W[b] = near.contact.nhat_W;
     }
@@ -481,6 +483,7 @@ void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot
   openings_.clear();
   bend_count_ = 0;
   epoch_ = bones.epoch;
+  step_ = bones.step;
   place_bands(bones);
   std::array<Hand, kMaxHands> all{};
   const std::span<Hand> hands(all.data(), std::min(tools.size(), kMaxHands));

@@ -134,6 +134,7 @@ void SolidCutting::step(SoftState& state, std::span<const SolidHand> hands, std:
     if (step % kSolidLookEvery == 0) {
       drop_pieces(s);
       tell_cleared(s);
+      sum_gone(s);
     }
     follow_stiffness(solids_[s], s);
     Solid& solid = solids_[s];
@@ -376,6 +377,13 @@ void SolidCutting::catch_up(std::uint32_t s) {
   presses_.set_cut(s, solid.holes.get(), solid.body);
 }
 
+void SolidCutting::sum_gone(std::uint32_t s) {
+  Solid& solid = solids_[s];
+  if (setup_.solids[s].to_clear || solid.summed == solid.field.step()) return;
+  solid.gone_m3 = removed_m3(s);
+  solid.summed = solid.field.step();
+}
+
 // A piece that hangs on nothing lies loose; crumbs are gone, out of the joint with the water.
 void SolidCutting::drop_pieces(std::uint32_t s) {
   Solid& solid = solids_[s];
@@ -504,6 +512,8 @@ void SolidCutting::put_cuts(std::uint32_t s, const SolidCutState& from) {
   solid.bridged = solid.ahead_of = Solid::kNever;
   if (solid.bridges) solid.bridges->forget();
   solid.followed = Solid::kNever;
+  solid.gone_m3 = removed_m3(s);
+  solid.summed = solid.field.step();
   solid.pieces = from.pieces;
   solid.looked = from.looked;
   solid.shown = from.cuts.blocks.empty() ? nullptr : std::make_shared<const CarveState>(from.cuts);

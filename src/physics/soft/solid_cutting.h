@@ -68,6 +68,8 @@ class SolidCutting {
   /// Something was cut in the last step.
   bool cuts_now() const;
   double removed_m3(std::size_t solid) const;
+  /// The same as it was when it was last looked at, at most kSolidLookEvery steps ago.
+  double gone_m3(std::size_t solid) const { return solids_[solid].gone_m3; }
   std::uint32_t pieces(std::size_t solid) const;
   /// Of what is to be cleared; 0 where nothing is.
   double cleared_percent(std::size_t solid) const;
@@ -104,6 +106,8 @@ class SolidCutting {
     std::vector<std::uint16_t> gone;  ///< of each block, of those
     std::uint64_t to_clear_nodes = 0, gone_nodes = 0;
     std::uint32_t told_percent = 0;
+    double gone_m3 = 0;
+    std::uint64_t summed = 0;               ///< the field's step when that was found
     std::unique_ptr<BridgeSearch> bridges;  ///< null: nothing tears
     /// The last search, of the field after which step and from where: not part of the state.
     std::optional<SolidBridge> bridge;
@@ -128,6 +132,7 @@ class SolidCutting {
   double remove(std::uint32_t solid, const Cutter& cutter, const Pose& from, const Pose& to);
   void tell(const Stroke& stroke, double volume_m3);
   void catch_up(std::uint32_t solid);
+  void sum_gone(std::uint32_t solid);
   void drop_pieces(std::uint32_t solid);
   void follow_stiffness(Solid& solid, std::uint32_t index);
   void put_cuts(std::uint32_t solid, const SolidCutState& from);

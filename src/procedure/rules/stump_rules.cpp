@@ -18,9 +18,18 @@ bool is_too_much(const PlannedRule& rule, double percent) {
   return percent > 100 * number_of(rule, "share");
 }
 
-// One visit of a tip is one error.
+// One of a part that is felt, when it has lost too much.
+std::optional<RuleHit> lost_hit(const PlannedRule& rule, const Event& event, double tick_s) {
+  const double most = number_of(rule, event.values[0] > 0 ? "lost_mm3" : "lost_percent");
+  const double now = std::floor(std::max(event.values[0], event.values[1]));
+  if (!(now >= most && event.values[2] < most)) return std::nullopt;
+  return RuleHit{time_of(event, tick_s)};
+}
+
+// One visit of a tip is one error, of a part that is not felt.
 std::optional<RuleHit> cut_hit(const PlannedRule& rule, const Event& event, double tick_s,
                                RuleHold& hold) {
+  if (event.kind == kSoundPartLost) return lost_hit(rule, event, tick_s);
   if (event.kind != kSoundPartCleared) return std::nullopt;
   const double for_s = event.values[0];
   if (for_s < hold.last_s) hold.told = false;
@@ -58,12 +67,20 @@ const std::vector<RuleKind>& stump_rule_table() {
        SubjectKind::kNothing,
        kStumpsCleared},
       {"sound_part_cut",
-       "what clears soft tissue runs for so long in a ligament or meniscus that is not to be "
-       "cleared, and so deep",
+       "a ligament or meniscus that is not to be cleared: what clears soft tissue runs in it for "
+       "so "
+       "long, and so deep, where it is not felt; where it is, it has lost so much of its volume, "
+       "or "
+       "of its strands",
        false,
-       {{"for_s", 0, 10, 0.3}, {"deep_mm", 0, 20, 1}},
+       {{"for_s", 0, 10, 0.3},
+        {"deep_mm", 0, 20, 1},
+        {"lost_mm3", 1, 10000, 10},
+        {"lost_percent", 1, 100, 5}},
        SubjectKind::kNothing,
-       kSoundPartCleared},
+       kSoundPartCleared,
+       false,
+       kSoundPartLost},
   };
   return table;
 }
