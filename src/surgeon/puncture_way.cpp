@@ -31,6 +31,7 @@ constexpr double kNeedleDeep_m = 0.022, kNeedle_s = 0.8;
 constexpr double kLookScope_m = 0.002, kScopeIn_m = 0.018;
 constexpr double kLookDeep_m = 0.006;  // under the skin of the other portal
 constexpr double kLooked_s = 2.2, kHook_s = 1.5;
+constexpr double kHookRadius_m = 0.0015, kHookBefore_m = 0.004, kHookPress_m = 0.0015;
 // So far ahead of the skin a hand goes that breaks through with what it is made to feel.
 constexpr double kForcedDeep_m = 0.041;
 constexpr double kBreaksDeep_m = 0.018;    // under the skin at rest, about where it breaks then
@@ -195,7 +196,8 @@ Pose puncture_wait(const PortalFrame& frame) {
 Vec3 hooked(const Puncture& at, const SkinWay& in) {
   const Vec3 mark = at.knee.mark("acl_tibia"), back = (in.p_W - mark).normalized();
   for (double before_m = 0.003; before_m < 0.02; before_m += 0.001)
-    if (at.knee.is_free(mark + before_m * back, in.p_W, 0.0015)) return mark + before_m * back;
+    if (at.knee.is_free(mark + before_m * back, in.p_W, kHookRadius_m))
+      return mark + before_m * back;
   return in.p_W + kTrocarDeep_m * in.in_W;
 }
 
@@ -290,6 +292,27 @@ void look_at_marks(const Puncture& at, const std::vector<std::string>& marks, co
   }
 }
 
+// Straight through the portal onto each soft mark, and off it. Where bone is in the way none is
+// felt.
+void feel_soft_marks(const Puncture& at, const std::vector<std::string>& marks, const SkinWay& am,
+                     HandWay& worker, std::vector<std::string>& unfelt) {
+  for (const std::string& name : marks) {
+    const Vec3 mark = at.knee.has_mark(name) ? at.knee.mark(name) : am.p_W;
+    const Vec3 back = (am.p_W - mark).normalized();
+    if (mark == am.p_W || !at.knee.is_free(mark + kHookBefore_m * back, am.p_W, kHookRadius_m)) {
+      unfelt.push_back(name);
+      continue;
+    }
+    const auto before = [&](double m) { return held_by_shaft(mark + m * back, back); };
+    worker.go(held_by_shaft(am.p_W + kOverSkin_m * back, back), kHandCarry_m_per_s);
+    worker.go(before(kHookBefore_m), kHandNear_m_per_s);
+    worker.go(before(-kHookPress_m), kPuncture_m_per_s);
+    worker.stay(kHook_s);
+    worker.go(before(kHookBefore_m), kPuncture_m_per_s);
+    worker.go(held_by_shaft(am.p_W + kOverSkin_m * back, back), kHandNear_m_per_s);
+  }
+}
+
 }  // namespace
 
 std::span<const std::string_view> puncture_faults() { return kPunctureFaults; }
@@ -342,11 +365,23 @@ Result<PunctureWays> plan_puncture(const Case& the_case, const std::string& scop
     const OpenSight sight(at->knee, the_case, begun_bones(the_case));
     look_at_marks(*at, end.looks_at, *al, optics, sight, eye, unseen);
   }
+  std::vector<std::string> unfelt;
+  if (end.leaves && !end.feels.empty()) {
+    // While the scope still looks there.
+    worker.take("hook_probe");
+    worker.stay(eye.now_s() - kLooked_s - worker.now_s());
+    feel_soft_marks(*at, end.feels, *am, worker, unfelt);
+    worker.go(puncture_wait(at->am), kHandCarry_m_per_s);
+    eye.stay(worker.now_s() - eye.now_s());
+  }
   if (end.leaves && is_in) draw_scope_out(*at, *al, eye);
   const Pose X_rest = at->X_moved.inverse();
   return PunctureWays{trembling(eye.path(), skill.tremor_m, skill.seed + 6),
-                      trembling(worker.path(), skill.tremor_m, skill.seed + 7), X_rest * al->p_W,
-                      X_rest * am->p_W, std::move(unseen)};
+                      trembling(worker.path(), skill.tremor_m, skill.seed + 7),
+                      X_rest * al->p_W,
+                      X_rest * am->p_W,
+                      std::move(unseen),
+                      std::move(unfelt)};
 }
 
 }  // namespace osteon

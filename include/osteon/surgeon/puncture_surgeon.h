@@ -18,6 +18,7 @@ struct PunctureWays {
   ProbePath scope, worker;
   Vec3 al_W = Vec3::Zero(), am_W = Vec3::Zero();  ///< where the portals will be, the knee at rest
   std::vector<std::string> unseen = {};           ///< landmarks that the scope cannot show
+  std::vector<std::string> unfelt = {};           ///< landmarks that no hook gets to
 };
 
 /// What is done once both portals are there.
@@ -25,6 +26,7 @@ struct PunctureEnd {
   std::string held = "scalpel_11";         ///< by the worker as he begins
   bool leaves = false;                     ///< else he goes on to the footprint with the hook
   std::vector<std::string> looks_at = {};  ///< landmarks that the scope shows before both leave
+  std::vector<std::string> feels = {};     ///< those that the worker presses with the hook then
 };
 
 /// The worker cuts the skin at the anterolateral portal and goes in through the cut with the blunt

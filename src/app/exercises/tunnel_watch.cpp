@@ -12,6 +12,7 @@
 #include "loops/realtime.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/procedure/tunnel_events.h"
+#include "osteon/scene/marks_now.h"
 
 namespace osteon {
 namespace {
@@ -97,6 +98,18 @@ double way_through_m(const MeshDistance& bone, const Vec3& p_B, const Vec3& in_B
   return way + kBeyond_m;
 }
 
+// The meniscus that a landmark lies on; kNoSubject: it lies on none.
+std::uint32_t soft_under(const Case& the_case, std::uint32_t landmark) {
+  constexpr double kOn_m = 0.001;
+  for (std::uint32_t i = 0; i < the_case.softs.size(); ++i) {
+    const SoftPart& soft = the_case.softs[i];
+    if (soft.kind != "meniscus" || soft.mesh_W.triangles.empty()) continue;
+    const Vec3& p_W = the_case.landmarks[landmark].p_W;
+    if (std::abs(MeshDistance(soft.mesh_W).closest(p_W).signed_distance) < kOn_m) return i;
+  }
+  return kNoSubject;
+}
+
 }  // namespace
 
 bool asks_about_tunnels(const ScenarioPlan& plan) {
@@ -126,7 +139,8 @@ TunnelWatch::TunnelWatch(const ScenarioPlan& plan, const Case& the_case, TunnelS
   for (const auto& goals : plan.goals)
     for (const PlannedRule& goal : goals) {
       const std::string& kind = goal.rule.kind;
-      if (kind == "felt") felt_.insert(felt_.end(), goal.bones.begin(), goal.bones.end());
+      for (std::size_t m = 0; kind == "felt" && m < goal.bones.size(); ++m)
+        felt_.push_back({goal.bones[m], soft_under(the_case, goal.bones[m])});
       const bool is_drilled = kind == "tunnel_drilled" || kind == "socket_drilled";
       if (kind != "tunnel_located" && !is_drilled) continue;
       const auto& n = goal.rule.numbers;
@@ -155,7 +169,7 @@ void TunnelWatch::add(std::span<const ToolState* const> tools, const BoneSnapsho
     last_tick_ = std::max(last_tick_, tool.tick);
     if (!is_finite(tool.X_WP)) continue;
     if (pins_[h] && !drills_) follow_pin(tool, h, bones, out);
-    if (tool.tick % stride_ == 0) see_marks(tool, h, out);
+    if (tool.tick % stride_ == 0) see_marks(tool, h, bones, out);
   }
   if (drills_) follow_drills(tools, bones, out);
   if (!job_.valid() || job_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
@@ -266,13 +280,18 @@ void TunnelWatch::take_cuts(std::size_t k) {
   fresh_ = fresh_ || whole_again || work_.cuts[k].has_value();
 }
 
-void TunnelWatch::see_marks(const ToolState& tool, std::size_t hand,
+// A mark on a meniscus is felt there, any other one on bone.
+void TunnelWatch::see_marks(const ToolState& tool, std::size_t hand, const BoneSnapshot& bones,
                             std::vector<Event>& out) const {
-  if (tool.contact_count == 0 || !is_finite(tool.force_W)) return;
-  for (const std::uint32_t mark : felt_) {
-    const double away = (case_->landmarks[mark].p_W - tool.X_WP.p).norm();
+  if (!is_finite(tool.force_W) || hand >= kMaxHands) return;
+  const SoftTouch& soft = bones.softs.touches[hand];
+  for (const FeltMark& mark : felt_) {
+    const bool touched = mark.soft == kNoSubject ? tool.contact_count > 0
+                                                 : soft.force_n > 0 && soft.soft == mark.soft;
+    if (!touched) continue;
+    const double away = (place_now(*case_, mark.landmark, bones) - tool.X_WP.p).norm();
     if (away < kFarFromMark_m)
-      out.push_back(told(tool, hand, kMarkFelt, SubjectKind::kLandmark, mark,
+      out.push_back(told(tool, hand, kMarkFelt, SubjectKind::kLandmark, mark.landmark,
                          {1e3 * away, tool.force_W.norm(), 0}));
   }
 }

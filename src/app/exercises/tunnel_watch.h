@@ -122,7 +122,13 @@ class TunnelWatch {
     Vec3 tip_B = Vec3::Zero();
     bool told = false;
   };
-  void see_marks(const ToolState& tool, std::size_t hand, std::vector<Event>& out) const;
+  /// A landmark that is to be felt.
+  struct FeltMark {
+    std::uint32_t landmark = 0;
+    std::uint32_t soft = kNoSubject;  ///< the meniscus that it lies on
+  };
+  void see_marks(const ToolState& tool, std::size_t hand, const BoneSnapshot& bones,
+                 std::vector<Event>& out) const;
   void follow_pin(const ToolState& tool, std::size_t hand, const BoneSnapshot& bones,
                   std::vector<Event>& out);
   std::size_t pressed(const ToolState& tool, const BoneSnapshot& bones) const;
@@ -145,7 +151,7 @@ class TunnelWatch {
   std::vector<char> pins_;
   double tick_s_;
   std::uint64_t stride_;
-  std::vector<std::uint32_t> felt_;  ///< landmarks
+  std::vector<FeltMark> felt_;
   std::array<std::uint32_t, kBones> bones_{kNoSubject, kNoSubject};
   std::array<Wanted, kBones> wanted_;
   std::array<Line, kBones> lines_;

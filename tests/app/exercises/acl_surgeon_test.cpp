@@ -176,10 +176,13 @@ TEST(AclSurgeon, WhatIsSeenBeforeTheKneeIsBentComesAfterThePortals) {
   stage("seen", {"portal_am"});
   stage("portal_made", {"portal_am"});
   stage("seen", {"medial_condyle", "medial_horn"});
-  EXPECT_TRUE(seen_before_bending(plan).empty()) << "the knee is not bent";
+  stage("felt", {"medial_horn"});
+  EXPECT_TRUE(marks_before_bending(plan, "seen").empty()) << "the knee is not bent";
   stage("knee_bent", {});
   stage("seen", {"acl_femur"});
-  EXPECT_EQ(seen_before_bending(plan), (std::vector<std::string>{"medial_condyle", "medial_horn"}));
+  EXPECT_EQ(marks_before_bending(plan, "seen"),
+            (std::vector<std::string>{"medial_condyle", "medial_horn"}));
+  EXPECT_EQ(marks_before_bending(plan, "felt"), std::vector<std::string>{"medial_horn"});
 }
 
 TEST(AclSurgeon, BeforeTheKneeIsBentTheScopeShowsTheInnerSide) {

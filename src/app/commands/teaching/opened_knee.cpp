@@ -32,13 +32,13 @@ bool errs_with_portals(const Skill& skill) {
 
 }  // namespace
 
-std::vector<std::string> seen_before_bending(const ScenarioPlan& plan) {
+std::vector<std::string> marks_before_bending(const ScenarioPlan& plan, std::string_view kind) {
   std::vector<std::string> marks;
   const auto bent = stage_bent_after_portals(plan);
   for (std::size_t s = bent.value_or(0); s-- > 0;) {
     if (has_goal_of_kind(plan.goals[s], "portal_made")) break;
     for (const PlannedRule& goal : plan.goals[s])
-      if (goal.rule.kind == "seen")
+      if (goal.rule.kind == kind)
         marks.insert(marks.end(), goal.rule.marks.begin(), goal.rule.marks.end());
   }
   return marks;
@@ -52,10 +52,12 @@ Result<std::optional<OpenedKnee>> plan_opening(const ScenarioPlan& plan, const C
   out.erred = errs_with_portals(skill) && skill.name != "bad:plunged";
   Skill at_skin = skill;
   if (!out.erred && at_skin.name.starts_with("bad:")) at_skin.name = "expert";
-  auto ways = plan_puncture(the_case, tools.scope, tools.optics, at_skin,
-                            {tools.probe, true, seen_before_bending(plan)});
+  auto ways = plan_puncture(
+      the_case, tools.scope, tools.optics, at_skin,
+      {tools.probe, true, marks_before_bending(plan, "seen"), marks_before_bending(plan, "felt")});
   if (!ways) return tl::unexpected(ways.error());
-  out.unseen = std::move(ways->unseen);
+  out.unreachable = std::move(ways->unseen);
+  out.unreachable.insert(out.unreachable.end(), ways->unfelt.begin(), ways->unfelt.end());
   out.scope = std::move(ways->scope);
   out.worker = std::move(ways->worker);
   out.end_s = std::max(out.scope.duration_s(), out.worker.duration_s());

@@ -248,8 +248,8 @@ Result<std::vector<std::string>> plan_reconstruction(
     ways->scope = joined(std::move((*opened)->scope), ways->scope);
     ways->probe = joined(std::move((*opened)->worker), ways->probe);
     ways->exam.insert(ways->exam.begin(), (*opened)->orders.begin(), (*opened)->orders.end());
-    ways->unreachable.insert(ways->unreachable.end(), (*opened)->unseen.begin(),
-                             (*opened)->unseen.end());
+    ways->unreachable.insert(ways->unreachable.end(), (*opened)->unreachable.begin(),
+                             (*opened)->unreachable.end());
   }
   work.made = ways->after_graft;
   ThirdHand third;
