@@ -80,5 +80,31 @@ TEST(SoundPartWatch, SaysNothingOfWhatDoesNotRunDoesNotClearOrIsNotIn) {
   EXPECT_TRUE(nowhere.run(200).empty());
 }
 
+TEST(SoundPartWatch, TellsWhatFeltPartsHaveLostByWholeNumbersAndAgainAfterARestorePoint) {
+  SoundPartRig rig;
+  rig.stays = false;
+  const auto lose = [&](std::uint32_t part, double mm3, double percent) {
+    rig.bones.softs.loss_count = 1;
+    rig.bones.softs.losses[0] = {part, mm3, percent};
+    return rig.run(3);
+  };
+  EXPECT_TRUE(lose(kPcl, 0, 0.9).empty());
+  const auto told = lose(kPcl, 0, 3.3);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, kSoundPartLost);
+  EXPECT_EQ(told[0].subject_kind, SubjectKind::kSoftPart);
+  EXPECT_EQ(told[0].subject, kPcl);
+  EXPECT_EQ(told[0].values, (std::array<double, 3>{0, 3.3, 0}));
+  EXPECT_TRUE(lose(kPcl, 0, 3.9).empty());
+  const auto more = lose(kPcl, 0, 6.6);
+  ASSERT_EQ(more.size(), 1u);
+  EXPECT_EQ(more[0].values[2], 3);
+  EXPECT_TRUE(lose(kFat, 40, 0).empty()) << "no sound part";
+  EXPECT_TRUE(lose(9, 40, 0).empty()) << "no part";
+  const auto again = lose(kPcl, 0, 2);
+  ASSERT_EQ(again.size(), 1u) << "it was whole meanwhile";
+  EXPECT_EQ(again[0].values[2], 0);
+}
+
 }  // namespace
 }  // namespace osteon

@@ -111,6 +111,40 @@ TEST(SoftCut, APunchTakesWhatIsBetweenItsJaws) {
   EXPECT_EQ(session.tool_state().force_W, Vec3(0, 0, 0));
 }
 
+// For those who judge: what is gone of it, and who presses what.
+TEST(SoftCut, TheSnapshotTellsWhatIsGoneAndWhoPresses) {
+  Session session = cut_run().session();
+  Hand hand(session);
+  hand.tick({CommandKind::kMark, 1});
+  hand.rest(10);
+  EXPECT_EQ(session.bones().softs.loss_count, 0u);
+  EXPECT_EQ(session.bones().softs.touches[0].force_n, 0);
+  bite(hand);
+  hand.rest(60);
+  ASSERT_EQ(session.bones().softs.loss_count, 1u);
+  const SoftLoss loss = session.bones().softs.losses[0];
+  EXPECT_EQ(loss.soft, 0u);
+  EXPECT_EQ(loss.mm3, removed_mm3(session));
+  EXPECT_EQ(loss.percent, 0);
+  Session other = cut_run().session();
+  (void)go_on_as(other, session);
+  Hand second(other);
+  second.at = hand.at;
+  second.q = hand.q;
+  second.rest(4);
+  EXPECT_EQ(other.bones().softs.losses[0].mm3, loss.mm3);
+  hand.take(kBall, Quat::Identity(), {-0.004, 0, 0.008});
+  hand.move({-0.004, 0, 0.004}, 200);
+  const SoftTouch touch = session.bones().softs.touches[0];
+  EXPECT_EQ(touch.soft, 0u);
+  EXPECT_NEAR(touch.force_n, session.tool_state().force_W.norm(), 0.02 * touch.force_n);
+  EXPECT_GT(touch.force_n, 0.2);
+  EXPECT_EQ(session.bones().softs.touches[1].force_n, 0);
+  hand.tick({CommandKind::kRestore, 1});
+  hand.rest(4);
+  EXPECT_EQ(session.bones().softs.loss_count, 0u);
+}
+
 TEST(SoftCut, AJawThatStaysShutOrOpenTakesNothing) {
   Session session = cut_run().session();
   Hand hand(session);

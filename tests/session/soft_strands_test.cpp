@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -24,6 +25,7 @@ using testing::begin_recording;
 using testing::DrivenHand;
 using testing::expect_same_replays;
 using testing::kBandGap_m;
+using testing::kBandRadius_m;
 using testing::kBandStiffness_n;
 using testing::kBandStrain;
 using testing::kBandSurface_n_per_m;
@@ -33,6 +35,7 @@ using testing::kTouch_m;
 using testing::shaft_at;
 
 constexpr double kEdge_n = 4;
+constexpr double kClears_m_per_s = 0.008;
 constexpr double kPress_m_per_tick = 1e-5;
 
 // The shaft is a blade as well where it is asked.
@@ -246,6 +249,69 @@ TEST(SoftStrands, ACutComesBackFromAStateAndInAReplayAndARestorePointMakesItWhol
   SessionState odd = back;
   odd.world.softs.bands[0].gone = ~std::uint64_t{0};
   EXPECT_FALSE(again.restore(odd));
+}
+
+// The shaft clears all round, or to one side, where it is let.
+BandRun clearing_run(const Vec3& face_T, bool parts = true) {
+  BandRun run = strand_run(false);
+  Tool tool = *run.tray[0];
+  tool.use.removes = true;
+  run.tray = {std::make_shared<const Tool>(tool)};
+  SoftSetup setup = *run.softs;
+  SolidCutter with;
+  with.way = SolidCutter::Way::kClear;
+  with.works = 1;
+  with.to_T = {0, 0, 0.025};
+  with.face_T = face_T;
+  with.speed_m_per_s = kClears_m_per_s;
+  setup.biters = {with};
+  if (parts) let_clearers_part_bands(setup);
+  EXPECT_EQ(setup.hash != run.softs->hash, parts);
+  run.settings.soft_hash = setup.hash;
+  run.softs = std::make_shared<const SoftSetup>(std::move(setup));
+  return run;
+}
+
+// Pressed 8 mm deep for so long. Returns the strands that are gone.
+int cleared(const BandRun& run, double power, int ticks) {
+  Session session = run.session();
+  (void)session.tick(shaft_at(0.02), {CommandKind::kPower, power});
+  Pressing shaver(session);
+  for (int n = 0; n < ticks; ++n) shaver.tick(kTouch_m - 0.008);
+  const int gone = std::popcount(shaver.band().gone);
+  const SoftTold told = session.bones().softs;
+  EXPECT_EQ(told.loss_count, gone > 0 ? 1u : 0u);
+  EXPECT_NEAR(told.losses[0].percent, 100.0 * gone / kStrands, 1e-9);
+  EXPECT_GT(told.touches[0].force_n, 0.5);
+  EXPECT_EQ(shaver.told(kSoftStrandsCut, 0).size(), static_cast<std::size_t>(10 * gone / kStrands));
+  return gone;
+}
+
+// At its speed it is through all 6 mm in 0.75 s: 61 strands, one in 6 steps.
+TEST(SoftStrands, WhatClearsTakesThemAtItsSpeedWhileItRuns) {
+  const BandRun run = clearing_run(Vec3::Zero());
+  const double through_s = 2 * kBandRadius_m / kClears_m_per_s;
+  EXPECT_NEAR(cleared(run, 1, 300), 0.3 / through_s * kStrands, 2);
+  EXPECT_NEAR(cleared(run, 0.5, 300), 0.15 / through_s * kStrands, 2);
+  EXPECT_EQ(cleared(run, 0, 300), 0);
+  EXPECT_EQ(cleared(clearing_run(Vec3::Zero(), false), 1, 300), 0);
+}
+
+// The shaft lies over the band: its own x or y is towards it, or away.
+TEST(SoftStrands, WhatClearsToOneSideLeavesTheOther) {
+  const Vec3 down_T = shaft_at(0).X_WD.q.conjugate() * -Vec3::UnitZ();
+  EXPECT_GT(cleared(clearing_run(down_T), 1, 300), 20);
+  EXPECT_EQ(cleared(clearing_run(-down_T), 1, 300), 0);
+}
+
+TEST(SoftStrands, NothingChangesWhereNothingClears) {
+  SoftSetup setup = *strand_run(false).softs;
+  const std::uint64_t before = setup.hash;
+  let_clearers_part_bands(setup);
+  setup.biters.resize(1);
+  let_clearers_part_bands(setup);
+  EXPECT_EQ(setup.hash, before);
+  EXPECT_FALSE(setup.clearers_part);
 }
 
 /// A basket punch, which bites where it is let.

@@ -21,12 +21,12 @@ struct StumpRuleRig {
     state.holds.resize(1);
   }
   // As the judge does.
-  bool hit(EventKind kind, double percent = 0, double blind_percent = 0) {
+  bool hit(EventKind kind, double percent = 0, double blind_percent = 0, double before = 0) {
     Event event;
     event.kind = kind;
     event.hand = 0;
     event.subject_kind = kind == kTunnelBegun ? SubjectKind::kLandmark : SubjectKind::kNothing;
-    event.values = {percent, blind_percent, 0};
+    event.values = {percent, blind_percent, before};
     return step_rule(rule, event, 0.001, state).has_value();
   }
   PlannedRule rule;
@@ -74,6 +74,18 @@ TEST(StumpRules, EachVisitInASoundPartThatIsLongAndDeepEnoughIsOneError) {
   EXPECT_FALSE(rig.hit(kSoundPartCleared, 0.05, 3));
   EXPECT_TRUE(rig.hit(kSoundPartCleared, 0.3, 3)) << "another";
   EXPECT_FALSE(rig.hit(kStumpsCleared, 60, 50));
+}
+
+TEST(StumpRules, ASoundPartThatIsFeltMayLoseALittleAndAnErrorIsMadeAsItLosesMore) {
+  StumpRuleRig rig("sound_part_cut");
+  rig.rule.rule.numbers = {{"for_s", 0.3}, {"deep_mm", 1}, {"lost_mm3", 10}, {"lost_percent", 5}};
+  EXPECT_FALSE(rig.hit(kSoundPartLost, 9.9, 0, 8)) << "of a meniscus";
+  EXPECT_TRUE(rig.hit(kSoundPartLost, 12.3, 0, 9));
+  EXPECT_FALSE(rig.hit(kSoundPartLost, 30, 0, 12)) << "told";
+  EXPECT_FALSE(rig.hit(kSoundPartLost, 0, 4.9, 3)) << "of a ligament";
+  EXPECT_TRUE(rig.hit(kSoundPartLost, 0, 6.6, 4));
+  EXPECT_FALSE(rig.hit(kSoundPartLost, 0, 8.2, 6));
+  EXPECT_TRUE(rig.hit(kSoundPartLost, 0, 5, 0)) << "after a restore point";
 }
 
 }  // namespace
