@@ -64,8 +64,9 @@ double recorded_tick_s(const RecordingHeader& header) {
 }
 
 RecordNames::RecordNames(const RecordingHeader& header) : hands_(hand_names(header)) {
-  for (std::size_t h = hands_.size(); h < 0x100; ++h)
+  for (std::size_t h = hands_.size(); h < kNoHand; ++h)
     hands_.push_back("hand_" + std::to_string(h + 1));
+  hands_.emplace_back();  // an event that no hand had to do with
   const ParsedJson names = ParsedJson::parse(header.names_json, nullptr, false);
   for (const KindOfSubject& kind : kKinds) by_kind_.push_back(texts_of(names, kind.key));
 }
