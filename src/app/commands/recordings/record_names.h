@@ -11,7 +11,7 @@ namespace osteon {
 class RecordNames {
  public:
   explicit RecordNames(const RecordingHeader& header);
-  /// The name that was given, or "hand_1".
+  /// The name that was given, or "hand_1"; empty of kNoHand.
   const std::string& hand(std::size_t hand) const;
   /// "portal"; empty: the event has no subject.
   static std::string subject_kind(const Event& event);
