@@ -272,12 +272,13 @@ BandRun clearing_run(const Vec3& face_T, bool parts = true) {
   return run;
 }
 
-// Pressed 8 mm deep for so long. Returns the strands that are gone.
+// Pressed 8 mm deep, then run for so long. Returns the strands that are gone.
 int cleared(const BandRun& run, double power, int ticks) {
   Session session = run.session();
-  (void)session.tick(shaft_at(0.02), {CommandKind::kPower, power});
   Pressing shaver(session);
-  for (int n = 0; n < ticks; ++n) shaver.tick(kTouch_m - 0.008);
+  while (shaver.z_m > kTouch_m - 0.008) shaver.tick(shaver.z_m - 10 * kPress_m_per_tick);
+  (void)session.tick(shaft_at(shaver.z_m), {CommandKind::kPower, power});
+  for (int n = 0; n < ticks; ++n) shaver.tick(shaver.z_m);
   const int gone = std::popcount(shaver.band().gone);
   const SoftTold told = session.bones().softs;
   EXPECT_EQ(told.loss_count, gone > 0 ? 1u : 0u);
