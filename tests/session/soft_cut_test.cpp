@@ -135,6 +135,7 @@ TEST(SoftCut, TheSnapshotTellsWhatIsGoneAndWhoPresses) {
   EXPECT_EQ(other.bones().softs.losses[0].mm3, loss.mm3);
   hand.take(kBall, Quat::Identity(), {-0.004, 0, 0.008});
   hand.move({-0.004, 0, 0.003}, 200);
+  hand.rest(50);
   const SoftTouch touch = session.bones().softs.touches[0];
   EXPECT_EQ(touch.soft, 0u);
   EXPECT_NEAR(touch.force_n, session.tool_state().force_W.norm(), 0.02 * touch.force_n);
