@@ -39,6 +39,7 @@ struct SoftSetup {
   /// in it.
   bool pieces_are_stopped = false;
   bool thin_ones_stop = false;  ///< by thin parts, too, in which nothing stands deep
+  bool suction_heeds_thin = false;  ///< it leaves what a thin part would take off it at once
   /// What one hand presses on a solid brings it no nearer to another than the first is deep in it.
   bool presses_are_bounded = false;
   bool by_strands = false;    ///< bands are cut and torn strand by strand
@@ -70,6 +71,9 @@ void let_pieces_be_stopped(SoftSetup& setup);
 /// Parts too thin for anything to stand deep in them stop what is carried, too. Nothing changes
 /// where none is stopped.
 void let_thin_parts_stop_pieces(SoftSetup& setup);
+/// Suction does not hold then what a thin part would take off it in the same step. Nothing changes
+/// where these stop nothing.
+void let_suction_heed_thin_parts(SoftSetup& setup);
 /// Two hands that press a solid towards one another raise each other's forces no further than that
 /// (SoftSetup::presses_are_bounded). Nothing changes where there are no solids.
 void let_presses_be_bounded(SoftSetup& setup);

@@ -212,9 +212,12 @@ void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool,
       tell(PieceNews::Is::kSucked, piece, hand);
       gone_[i] = 1;
     } else if (!fits && nearest_point_m(piece, bore_W) < 0.5 * with->bore_m) {
-      // What would soon slip off lies where bone has it.
+      // What would soon slip off lies where bone or a soft part has it.
       const StandsIn in = stands_in(piece, around);
-      if (in.bone_m <= kPieceTaken_m && in.soft_m <= kPieceTaken_m) hold(piece, hand, tool, true);
+      const bool slips =
+          around.softs && around.softs->suction_heeds_thin() && is_through_thin(in, piece, around);
+      if (in.bone_m <= kPieceTaken_m && in.soft_m <= kPieceTaken_m && !slips)
+        hold(piece, hand, tool, true);
     } else if (to_bore.norm() > 1e-9) {
       const double share = 1 - std::max(gap, 0.0) / kSuctionReach_m;
       piece.v_W += step_s * kPull_m_per_s2 * tool.power * share * to_bore.normalized();

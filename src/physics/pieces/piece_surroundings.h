@@ -25,6 +25,8 @@ class PieceSoftGround {
   virtual bool stops_carried() const { return false; }
   /// And whether by those, too, that are too thin for anything to stand deep in them.
   virtual bool thin_ones_stop() const { return false; }
+  /// And whether suction leaves what such a one would take off it at once.
+  virtual bool suction_heeds_thin() const { return false; }
   /// False: no point of that ball is in one.
   virtual bool may_meet(const Vec3& center_W, double radius_m) const = 0;
 };

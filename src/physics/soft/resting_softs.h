@@ -25,6 +25,7 @@ class RestingSofts : public PieceSoftGround {
   PiecePush at(const Vec3& p_W) const override;
   bool stops_carried() const override { return setup_.pieces_are_stopped; }
   bool thin_ones_stop() const override { return setup_.thin_ones_stop; }
+  bool suction_heeds_thin() const override { return setup_.suction_heeds_thin; }
 
  private:
   bool is_there(std::size_t solid) const;

@@ -201,6 +201,12 @@ void let_thin_parts_stop_pieces(SoftSetup& setup) {
   tell_hash(setup, "thin parts stop pieces");
 }
 
+void let_suction_heed_thin_parts(SoftSetup& setup) {
+  if (!setup.thin_ones_stop) return;
+  setup.suction_heeds_thin = true;
+  tell_hash(setup, "suction heeds thin parts");
+}
+
 void let_presses_be_bounded(SoftSetup& setup) {
   if (setup.solids.empty()) return;
   setup.presses_are_bounded = true;

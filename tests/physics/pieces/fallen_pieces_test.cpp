@@ -272,6 +272,8 @@ struct StoppingFloor : SoftFloor {
   }
   bool stops_carried() const override { return true; }
   bool thin_ones_stop() const override { return thin_ones; }
+  bool heeds_thin = false;
+  bool suction_heeds_thin() const override { return heeds_thin; }
 };
 
 // How far below the floor's top the lowest point of a cube of 6 mm was as it slipped; 0: it did
@@ -378,6 +380,36 @@ TEST(FallenPieces, WhatBoneTakesOffTheSuctionIsNotHeldAgainAtOnce) {
   }
   EXPECT_GE(let_go, 1);
   EXPECT_LE(let_go, 10);
+}
+
+// What suction holds is in the middle of a part 2 mm thick: how often it is let go in 100 steps.
+int let_go_in_thin(bool heeds_thin) {
+  PieceRig rig(table(), {"suction:4"});
+  rig.add(ball_piece(0.003), Vec3(0, 0, 0.003));
+  rig.step(300);
+  rig.tool.X_WP.p = Vec3(0, 0, 0.0085);
+  rig.tool.power = 1;
+  rig.step(500);
+  EXPECT_EQ(rig.piece().is, FallenPiece::Is::kHeld);
+  StoppingFloor floor;
+  floor.half_m = 0.001;
+  floor.thin_ones = floor.knows_half = true;
+  floor.heeds_thin = heeds_thin;
+  floor.top_m = rig.middle().z() + floor.half_m;
+  const ToolState* const tools[] = {&rig.tool};
+  int let_go = 0;
+  for (int n = 0; n < 100; ++n) {
+    rig.pieces.step(tools, rig.bones, {}, false, kPieceStep_s, &floor);
+    let_go += rig.told(PieceNews::Is::kLetGo);
+  }
+  return let_go;
+}
+
+TEST(FallenPieces, WhatAThinPartTakesOffTheSuctionIsNotHeldAgainAtOnce) {
+  EXPECT_GT(let_go_in_thin(false), 50) << "so it was before suction heeded thin parts";
+  const int heeding = let_go_in_thin(true);
+  EXPECT_GE(heeding, 1);
+  EXPECT_LE(heeding, 5);
 }
 
 TEST(FallenPieces, BeyondAllBonesItIsGone) {
