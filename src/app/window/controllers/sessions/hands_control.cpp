@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "osteon/base/turn.h"
+#include "window/controllers/sessions/shaft_place.h"
 
 namespace osteon {
 namespace {
@@ -62,8 +62,15 @@ void HandsControl::exchange(const HandsRequests& requests) {
   if (place && *place != held) take(*place);
 }
 
+// In a portal the new shaft is where the old one was: a hook's would else press the skin aside.
 void HandsControl::take(std::uint32_t place) {
-  live_.run()->take(place);
+  LiveRun& run = *live_.run();
+  const ToolState& tool = sight_.shown().tool;
+  const Tool* const now = tool_at(place);
+  const Tool* const before = tool_at(tool.instrument);
+  if (run.by_mouse() && tool.portal < scene_.portals.size() && now && before)
+    run.bring(on_the_same_line(*before, *now, run.hand(run.active()).X_WD_wanted));
+  run.take(place);
   live_.tray().took(place);
   host_.note(ToastKind::kInfo, "In your hand: " + live_.tray().title(place));
 }
@@ -82,6 +89,11 @@ void HandsControl::change_hands() {
       run.add_hand({offered.p - kApart_m * (camera.q_WC * Vec3::UnitX()), offered.q}, 0);
   if (!added) return host_.note(ToastKind::kWarning, added.error().message());
   host_.note(ToastKind::kInfo, "You now move the left hand; the right one rests. X changes hands.");
+}
+
+const Tool* HandsControl::tool_at(std::uint32_t place) const {
+  const Tray& tools = live_.tray().run().tools;
+  return place < tools.size() ? tools[place].get() : nullptr;
 }
 
 // Before the portal, the shaft along its way in.
@@ -109,8 +121,8 @@ void HandsControl::bring_to(std::size_t way) {
   const std::vector<WayIn> ways = ways_in();
   if (way >= ways.size() || !live_.run()->by_mouse()) return;
   const WayIn& to = ways[way];
-  live_.run()->bring(
-      {to.p_W - kBefore_m * to.inwards_W, turn_between(Vec3::UnitZ(), -to.inwards_W).normalized()});
+  const Tool* const held = tool_at(sight_.shown().tool.instrument);
+  live_.run()->bring(before_portal(held ? *held : Tool{}, to.p_W, to.inwards_W, kBefore_m));
   aimed_ = to;
 }
 
@@ -220,7 +232,9 @@ std::size_t HandsControl::free_way(std::span<const WayIn> ways, std::size_t from
   const auto is_free = [&](const WayIn& way) {
     const Vec3 before_W = way.p_W - kBefore_m * way.inwards_W;
     return std::none_of(others.begin(), others.end(), [&](const ToolState& tool) {
-      return tool.portal == way.portal || (tool.X_WP.p - before_W).norm() < kStandsThere_m;
+      const Tool* const held = tool_at(tool.instrument);
+      const Vec3 there_W = held ? tool.X_WP * shaft_beside_tip(*held) : tool.X_WP.p;
+      return tool.portal == way.portal || (there_W - before_W).norm() < kStandsThere_m;
     });
   };
   for (std::size_t n = 0; n < ways.size(); ++n)

@@ -44,6 +44,7 @@ class HandsControl {
  private:
   void exchange(const HandsRequests& requests);
   void change_hands();
+  const Tool* tool_at(std::uint32_t place) const;  ///< of the tray; null: it has none there
   /// A portal that a hand may be brought to: one of the case that is open, or one that was made.
   struct WayIn {
     std::size_t portal = 0;  ///< in ShownCase::portals
