@@ -6,6 +6,7 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/scenario.h"
+#include "osteon/scene/marks_now.h"
 #include "rules/rule_instruments.h"
 
 namespace osteon {
@@ -34,6 +35,7 @@ class ScenarioChecker {
         marks_can_be_seen(goal);
         press_is_allowed(goal);
         instruments_can_be_taken(goal);
+        marks_can_be_felt(goal);
         if (const auto n = goal.numbers.find("for_s"); n != goal.numbers.end())
           least_s += static_cast<double>(count_of(goal)) * n->second;
       }
@@ -95,6 +97,22 @@ class ScenarioChecker {
     if (rule.numbers.at("near_mm") + rule.numbers.at("span_mm") >= rule.numbers.at("far_mm"))
       say(rule.line, "the rule '" + rule.kind +
                          "' can never be met: far_mm leaves no room beyond near_mm and span_mm");
+  }
+
+  void marks_can_be_felt(const Rule& rule) {
+    if (rule.kind != "felt") return;
+    const auto is_felt = [&](const std::string& soft) {
+      return std::any_of(
+          scenario_.soft.begin(), scenario_.soft.end(),
+          [&](const std::string& name) { return name == "menisci" || name == soft; });
+    };
+    for (const std::string& name : rule.marks) {
+      const auto mark = find_landmark(case_, name);
+      const auto soft = mark ? meniscus_under(case_, *mark) : std::nullopt;
+      if (soft && !is_felt(case_.softs[*soft].name))
+        say(rule.line, "the rule 'felt' can never be met: '" + name + "' lies on '" +
+                           case_.softs[*soft].name + "', which is not felt; name it in soft");
+    }
   }
 
   void instruments_can_be_taken(const Rule& rule) {

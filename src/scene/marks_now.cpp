@@ -1,6 +1,9 @@
 #include "osteon/scene/marks_now.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "osteon/mesh/distance.h"
 
 namespace osteon {
 namespace {
@@ -31,6 +34,18 @@ Pose moved_from_rest(const Case& the_case, std::uint32_t landmark, const BoneSna
 
 Vec3 place_now(const Case& the_case, std::uint32_t landmark, const BoneSnapshot& bones) {
   return moved_from_rest(the_case, landmark, bones) * the_case.landmarks[landmark].p_W;
+}
+
+std::optional<std::uint32_t> meniscus_under(const Case& the_case, std::uint32_t landmark) {
+  constexpr double kOn_m = 0.001;
+  if (landmark >= the_case.landmarks.size()) return {};
+  const Vec3& p_W = the_case.landmarks[landmark].p_W;
+  for (std::uint32_t i = 0; i < the_case.softs.size(); ++i) {
+    const SoftPart& soft = the_case.softs[i];
+    if (soft.kind != "meniscus" || soft.mesh_W.triangles.empty()) continue;
+    if (std::abs(MeshDistance(soft.mesh_W).closest(p_W).signed_distance) < kOn_m) return i;
+  }
+  return {};
 }
 
 BoneSnapshot begun_bones(const Case& the_case) {

@@ -111,6 +111,38 @@ TEST(Scenario, ErrorsNameTheLine) {
   EXPECT_FALSE(load_scenario("/nowhere/x.toml"));
 }
 
+TEST(Scenario, CheckFindsAMarkOnAMeniscusThatIsNotFelt) {
+  Case the_case = testing::named_case({"radius", "lunate"});
+  SoftPart meniscus;
+  meniscus.name = "medial_meniscus";
+  meniscus.kind = "meniscus";
+  meniscus.mesh_W.vertices = {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}};
+  meniscus.mesh_W.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  the_case.softs.push_back(meniscus);
+  the_case.landmarks.push_back({"horn", Vec3(0.002, 0.002, -0.0002), Vec3::Zero(), ""});
+  the_case.landmarks.push_back({"beside", Vec3(0.002, 0.002, -0.005), Vec3::Zero(), ""});
+  Scenario scenario = two();
+  Rule felt;
+  felt.kind = "felt";
+  felt.marks = {"beside"};
+  felt.line = 14;
+  scenario.stages[0].goals.push_back(felt);
+  EXPECT_TRUE(check_scenario(scenario, the_case).empty());
+  scenario.stages[0].goals.back().marks = {"horn"};
+  const auto lines = check_scenario(scenario, the_case);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("two.toml:14: the rule 'felt' can never be met: 'horn' lies on "
+                          "'medial_meniscus'"),
+            std::string::npos)
+      << lines[0];
+  for (const char* name : {"menisci", "medial_meniscus"}) {
+    scenario.soft = {name};
+    EXPECT_TRUE(check_scenario(scenario, the_case).empty()) << name;
+  }
+  scenario.soft = {"lateral_meniscus"};
+  EXPECT_EQ(check_scenario(scenario, the_case).size(), 1u);
+}
+
 TEST(Scenario, CheckFindsRulesThatCanNeverBeMet) {
   const Case the_case = testing::named_case({"radius", "lunate"});
   EXPECT_TRUE(check_scenario(two(), the_case).empty());

@@ -69,5 +69,24 @@ TEST(MarksNow, ABeginningBeyondTheJointsRangeIsRefused) {
   EXPECT_NE(built.error().message().find("flexion"), std::string::npos);
 }
 
+TEST(MarksNow, AMarkLiesOnTheMeniscusWhoseSurfaceIsWithinAMillimetre) {
+  Case knee = marked_knee();
+  for (const char* kind : {"fat", "meniscus"}) {
+    SoftPart soft;
+    soft.name = soft.kind = kind;
+    soft.mesh_W.vertices = {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}};
+    soft.mesh_W.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    knee.softs.push_back(soft);
+  }
+  const std::uint32_t meniscus = static_cast<std::uint32_t>(knee.softs.size()) - 1;
+  knee.landmarks[0].p_W = {0.002, 0.002, -0.0009};
+  knee.landmarks[1].p_W = {0.002, 0.002, -0.0011};
+  EXPECT_EQ(meniscus_under(knee, 0), meniscus);
+  EXPECT_FALSE(meniscus_under(knee, 1));
+  EXPECT_FALSE(meniscus_under(knee, 99));
+  knee.softs.back().mesh_W = {};
+  EXPECT_FALSE(meniscus_under(knee, 0)) << "the case does not show it";
+}
+
 }  // namespace
 }  // namespace osteon

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
@@ -12,6 +13,9 @@ namespace osteon {
 Pose moved_from_rest(const Case& the_case, std::uint32_t landmark, const BoneSnapshot& bones);
 /// Where it is now, World.
 Vec3 place_now(const Case& the_case, std::uint32_t landmark, const BoneSnapshot& bones);
+
+/// The meniscus that a landmark lies on, in Case::softs; none: it lies on none that the case shows.
+std::optional<std::uint32_t> meniscus_under(const Case& the_case, std::uint32_t landmark);
 
 /// The bones as a session begins: at rest, but for those of a joint that begins otherwise.
 BoneSnapshot begun_bones(const Case& the_case);

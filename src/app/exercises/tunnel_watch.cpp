@@ -98,18 +98,6 @@ double way_through_m(const MeshDistance& bone, const Vec3& p_B, const Vec3& in_B
   return way + kBeyond_m;
 }
 
-// The meniscus that a landmark lies on; kNoSubject: it lies on none.
-std::uint32_t soft_under(const Case& the_case, std::uint32_t landmark) {
-  constexpr double kOn_m = 0.001;
-  for (std::uint32_t i = 0; i < the_case.softs.size(); ++i) {
-    const SoftPart& soft = the_case.softs[i];
-    if (soft.kind != "meniscus" || soft.mesh_W.triangles.empty()) continue;
-    const Vec3& p_W = the_case.landmarks[landmark].p_W;
-    if (std::abs(MeshDistance(soft.mesh_W).closest(p_W).signed_distance) < kOn_m) return i;
-  }
-  return kNoSubject;
-}
-
 }  // namespace
 
 bool asks_about_tunnels(const ScenarioPlan& plan) {
@@ -140,7 +128,8 @@ TunnelWatch::TunnelWatch(const ScenarioPlan& plan, const Case& the_case, TunnelS
     for (const PlannedRule& goal : goals) {
       const std::string& kind = goal.rule.kind;
       for (std::size_t m = 0; kind == "felt" && m < goal.bones.size(); ++m)
-        felt_.push_back({goal.bones[m], soft_under(the_case, goal.bones[m])});
+        felt_.push_back(
+            {goal.bones[m], meniscus_under(the_case, goal.bones[m]).value_or(kNoSubject)});
       const bool is_drilled = kind == "tunnel_drilled" || kind == "socket_drilled";
       if (kind != "tunnel_located" && !is_drilled) continue;
       const auto& n = goal.rule.numbers;
