@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "osteon/base/turn.h"
 #include "osteon/device/mouse_device.h"
 #include "runs/hands/live_run.h"
+#include "runs/hands/shaft_place.h"
 
 namespace osteon {
 namespace {
@@ -15,17 +15,6 @@ constexpr double kTether_m = 0.015;
 constexpr double kTwice_s = 2;  // undo again within this goes one restore point further back
 
 Quat about(const Vec3& axis, double angle_rad) { return Quat(Eigen::AngleAxisd(angle_rad, axis)); }
-
-// Outside the hole the direction stays; inside the shaft leads back through it.
-Pose slid_through(Pose X_WD, const Vec3& hole_W, double wheel) {
-  constexpr double kWheel_m = 0.002;
-  X_WD.p -= wheel * kWheel_m * (X_WD.q * Vec3::UnitZ());
-  const Vec3 shaft_W = X_WD.q * Vec3::UnitZ();
-  const Vec3 back_W = hole_W - X_WD.p;
-  if (back_W.dot(shaft_W) < 0.003) return X_WD;
-  X_WD.q = (turn_between(shaft_W, back_W) * X_WD.q).normalized();
-  return X_WD;
-}
 
 }  // namespace
 
@@ -158,8 +147,12 @@ void LiveRun::move_hand(const ProbeMotion& motion, const Camera& camera, const V
   ProbeMotion free = motion;
   if (through_W) free.wheel = 0;
   hand.X_WD_wanted = drag_probe(hand.X_WD_wanted, free, camera, viewport, dt_s);
-  if (through_W) hand.X_WD_wanted = slid_through(hand.X_WD_wanted, *through_W, motion.wheel);
   const ToolState& tool = hand.snapshot.tool;
+  const Tray& tools = tray_.tools;
+  const Vec3 beside_T = tool.instrument < tools.size() ? shaft_beside_tip(*tools[tool.instrument])
+                                                       : Vec3(Vec3::Zero());
+  if (through_W)
+    hand.X_WD_wanted = slid_through(hand.X_WD_wanted, beside_T, *through_W, motion.wheel);
   const Vec3 away = hand.X_WD_wanted.p - tool.X_WP.p;
   if (tool.contact_count > 0 && away.norm() > kTether_m)
     hand.X_WD_wanted.p = tool.X_WP.p + away.normalized() * kTether_m;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "window/controllers/sessions/shaft_place.h"
+#include "runs/hands/shaft_place.h"
 
 namespace osteon {
 namespace {

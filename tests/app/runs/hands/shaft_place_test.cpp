@@ -1,4 +1,4 @@
-#include "window/controllers/sessions/shaft_place.h"
+#include "runs/hands/shaft_place.h"
 
 #include <gtest/gtest.h>
 
@@ -40,6 +40,26 @@ TEST(ShaftPlace, WhatIsTakenHasItsShaftWhereTheOtherHadIt) {
   EXPECT_LT(off_axis_m(hook, taken, on_line), 1e-12);
   EXPECT_LT((on_the_same_line(hook, trocar, taken).p - X_WT.p).norm(), 1e-12);
   EXPECT_EQ(on_the_same_line(hook, hook, X_WT).p, X_WT.p);
+}
+
+// Outside the direction stays; inside the axis leads back through the hole, of a hook as well.
+TEST(ShaftPlace, WhatAHoleLeadsTurnsAboutItOnceItIsInside) {
+  const Vec3 hole(0.01, 0, 0);
+  for (const char* name : {"hook_probe", "trocar_blunt"}) {
+    const Tool tool = tool_named(name);
+    const Vec3 beside = shaft_beside_tip(tool);
+    Pose X_WT = before_portal(tool, hole, -Vec3::UnitZ(), 0.012);
+    const Pose pushed = slid_through(X_WT, beside, hole, 2);
+    EXPECT_NEAR(pushed.p.z(), X_WT.p.z() - 0.004, 1e-12) << name;
+    EXPECT_EQ(pushed.q.coeffs(), X_WT.q.coeffs()) << name;
+    X_WT.p += Vec3(0.004, -0.003, -0.035);
+    const Pose inside = slid_through(X_WT, beside, hole, 0);
+    EXPECT_LT(off_axis_m(tool, inside, hole), 1e-9) << name;
+    EXPECT_EQ(inside.p, X_WT.p) << name;
+    EXPECT_LT(inside.q.angularDistance(X_WT.q), 0.3) << name;
+    X_WT.p = hole - Vec3(0, 0, 0.002);
+    EXPECT_EQ(slid_through(X_WT, beside, hole, 0).q.coeffs(), X_WT.q.coeffs()) << "hardly in";
+  }
 }
 
 }  // namespace
