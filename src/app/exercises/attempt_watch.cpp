@@ -9,6 +9,7 @@
 #include "osteon/scene/portal.h"
 #include "osteon/scene/tool_set.h"
 #include "osteon/session/session.h"
+#include "runs/hands/shaft_place.h"
 #include "runs/hands/tray.h"
 
 namespace osteon {
@@ -96,7 +97,7 @@ Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
     planned.shaft_radius_m = 0.5 * instrument->sizes_m[instrument->usual_size];
     planned.tip_radius_m = tool.tip_radius_m;
     planned.removes = instrument->removal.has_value();
-    planned.shaft_offset_T = {tool.shaft.p0.x(), tool.shaft.p0.y(), 0};
+    planned.shaft_offset_T = shaft_beside_tip(tool);
     planned.pin = named->name == kGuidePin;
   }
   for (const std::string& name : hand.also) {

@@ -67,11 +67,9 @@ const std::vector<RuleKind>& stump_rule_table() {
        SubjectKind::kNothing,
        kStumpsCleared},
       {"sound_part_cut",
-       "a ligament or meniscus that is not to be cleared: what clears soft tissue runs in it for "
-       "so "
-       "long, and so deep, where it is not felt; where it is, it has lost so much of its volume, "
-       "or "
-       "of its strands",
+       "a ligament or meniscus that is felt has lost so much of its strands or of its volume to "
+       "instruments; in one that is not felt, what clears soft tissue runs for so long, and so "
+       "deep",
        false,
        {{"for_s", 0, 10, 0.3},
         {"deep_mm", 0, 20, 1},
