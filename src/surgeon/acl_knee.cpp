@@ -46,6 +46,20 @@ Result<AclKnee> AclKnee::make(const Case& the_case) {
   return AclKnee(the_case, the_case.bone(femur), the_case.bone(tibia));
 }
 
+void AclKnee::spare_softs() {
+  softs_W_.clear();
+  for (const SoftPart& part : case_->softs)
+    if ((part.kind == "meniscus" || part.name == "pcl") && !part.mesh_W.triangles.empty())
+      softs_W_.emplace_back(part.mesh_W);
+}
+
+double AclKnee::soft_m(const Vec3& p_W) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const MeshDistance& part : softs_W_)
+    least = std::min(least, part.closest(p_W).signed_distance);
+  return least;
+}
+
 bool AclKnee::has_mark(std::string_view name) const {
   return find_landmark(*case_, name).has_value();
 }

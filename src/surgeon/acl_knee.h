@@ -26,6 +26,11 @@ class AclKnee {
   double femur_m(const Vec3& p_W) const { return gap(femur_, X_WF_, p_W); }
   double tibia_m(const Vec3& p_W) const { return gap(tibia_, X_WT_, p_W); }
   double gap_m(const Vec3& p_W) const { return std::min(femur_m(p_W), tibia_m(p_W)); }
+  /// From now on soft_m() knows the menisci and the other cruciate ligament.
+  void spare_softs();
+  bool spares_softs() const { return !softs_W_.empty(); }
+  /// Distance to what is spared, negative inside; infinite: nothing is.
+  double soft_m(const Vec3& p_W) const;
   /// A direction of a right knee stretched out (x to the foot, y to the other leg, z to the front),
   /// as this knee's femur or tibia has it.
   Vec3 femoral(Vec3 d) const { return X_WF_.rotate(sided(d)); }
@@ -59,6 +64,7 @@ class AclKnee {
 
   const Case* case_;
   MeshDistance femur_, tibia_;
+  std::vector<MeshDistance> softs_W_;
   Pose X_WF_, X_WT_;
   bool left_ = false;
   std::optional<Capsule> old_socket_, old_tunnel_;  ///< World

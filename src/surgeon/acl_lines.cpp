@@ -10,6 +10,7 @@ constexpr double kPinRoom_m = 0.002;  // about its axis; a reamer with a cut-awa
 constexpr double kDrillRoom_m = 0.0001, kTight_m = -0.0004;
 constexpr double kPinBites = 0.67;  // cosine to the face that it enters: 48 degrees
 constexpr double kSocket_m = 0.025, kChannel_m = 0.040;
+constexpr double kSoftRoom_m = 0.0007, kWorthSoft = 12;
 constexpr double kWall_m = 0.0015;  // of bone behind a socket is enough
 constexpr double kMostBehind_m = 0.01;
 // A socket stands so far from the footprint's middle at most; farther where it would be open
@@ -89,13 +90,25 @@ double room_before(const AclKnee& knee, const AclLine& line, double enough_m) {
   return room;
 }
 
+// The same about what is soft and spared: drills cut it, and it holds an aimer up.
+double soft_room_before(const AclKnee& knee, const AclLine& line, double enough_m) {
+  constexpr double kFrom_m = 0.005, kTo_m = 0.06, kStride_m = 0.001;
+  double room = enough_m;
+  for (double before = kFrom_m; before < kTo_m && room > 0;) {
+    const double gap = knee.soft_m(line.at_W - before * line.in_W);
+    room = std::min(room, gap);
+    before += std::max(kStride_m, gap - room);
+  }
+  return room;
+}
+
 double share_between(double value, double none, double all) {
   return std::clamp((value - none) / (all - none), 0.0, 1.0);
 }
 
-// What is wanted of a socket, in this order: room for the drill on its way, bone behind it, a
-// channel in which loop and button have their place, a mouth that is not too slanted. Who does not
-// look behind finds the least bone there.
+// What is wanted of a socket, in this order: soft parts that are spared, room for the drill on its
+// way, bone behind it, a channel in which loop and button have their place, a mouth that is not too
+// slanted. Who does not look behind finds the least bone there.
 void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, std::string_view fault,
                   Choice& best) {
   constexpr double kFlattest = 0.3, kSteep = 0.55, kShort_m = 0.027, kLong_m = 0.031;
@@ -109,10 +122,15 @@ void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, std::
   double worth = best.given + to_old + 4 * share_between(channel, kShort_m, kLong_m) +
                  0.3 / (1 + std::abs(channel - kChannel_m) / 0.01) +
                  2 * share_between(straight, kFlattest, kSteep);
-  if (worth + 8 <= best.worth) return;
+  const double most_soft = knee.spares_softs() ? kWorthSoft : 0;
+  if (worth + 8 + most_soft <= best.worth) return;
   const double room = room_before(knee, line, radius + kDrillRoom_m);
   if (room <= kPinRoom_m) return;
   worth += 5 * share_between(room, radius + kTight_m, radius + kDrillRoom_m);
+  if (worth + 3 + most_soft <= best.worth) return;
+  if (knee.spares_softs())
+    worth += kWorthSoft * share_between(soft_room_before(knee, line, radius + kSoftRoom_m), 0,
+                                        radius + kSoftRoom_m);
   if (worth + 3 <= best.worth) return;
   const double behind = std::clamp(bone_behind(knee, line, radius) / kWall_m, -1.0, 1.0);
   worth += (fault != "blow_out" ? 3 : -3) * behind;

@@ -454,8 +454,9 @@ AclWay probe_way(const AclKnee& knee, const AclTools& tools, const ScopePortals&
 std::span<const std::string_view> acl_faults() { return kFaults; }
 
 Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skill& skill) {
-  const auto knee = AclKnee::make(the_case);
+  auto knee = AclKnee::make(the_case);
   if (!knee) return tl::unexpected(knee.error());
+  if (tools.spares_softs) knee->spare_softs();
   const AclHabits habits = habits_of(skill);
   if (auto ok = check_marks(*knee, tools, habits); !ok) return tl::unexpected(ok.error());
   const auto plan = plan_drilling(*knee, tools, habits);

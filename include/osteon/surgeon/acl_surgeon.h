@@ -27,9 +27,10 @@ struct AclTools {
   bool drills_tibia = true, drills_femur = true;  ///< of those that drill
   std::vector<std::string> tour;                  ///< landmarks that are looked at
   std::vector<std::string> felt;                  ///< and those that the probe presses next to
-  bool examines = false;  ///< the knee is tested by hand, between the scope and the probe
-  std::string shaver;     ///< that clears the stumps after that; empty: they stay
-  double begin_s = 0;     ///< nobody comes before; what drills then begins when it is told to
+  bool examines = false;      ///< the knee is tested by hand, between the scope and the probe
+  std::string shaver;         ///< that clears the stumps after that; empty: they stay
+  double begin_s = 0;         ///< nobody comes before; what drills then begins when it is told to
+  bool spares_softs = false;  ///< drills keep off menisci and the other cruciate ligament
   std::optional<Vec3> al_W, am_W;  ///< where the portals were made; none: at the landmarks
 };
 

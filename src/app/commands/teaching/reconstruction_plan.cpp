@@ -187,6 +187,8 @@ Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, cons
   if (tools.pin.empty() || tools.scope.empty())
     return fail("needs a hand with a scope and one with a guide pin", run.scenario.where);
   tools.examines = has_goal(plan, "knee_examined");
+  const auto& soft = run.scenario.soft;
+  tools.spares_softs = std::find(soft.begin(), soft.end(), "menisci") != soft.end();
   choose_bones(plan, run.skill, tools);
   // What comes before is a part of making the portals.
   const auto bent = stage_bent_after_portals(plan);
