@@ -38,7 +38,7 @@ struct SoftSetup {
   /// Pieces of bone rest on what is soft, too, and what jaws carry slips from them where it stands
   /// in it.
   bool pieces_are_stopped = false;
-  bool thin_ones_stop = false;  ///< by thin parts, too, in which nothing stands deep
+  bool thin_ones_stop = false;      ///< by thin parts, too, in which nothing stands deep
   bool suction_heeds_thin = false;  ///< it leaves what a thin part would take off it at once
   /// What one hand presses on a solid brings it no nearer to another than the first is deep in it.
   bool presses_are_bounded = false;
