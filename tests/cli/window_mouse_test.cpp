@@ -32,7 +32,7 @@ wheel() { for i in $(seq "$2"); do xdotool click "$1"; sleep 0.03; done; sleep 0
 move() { for i in $(seq "$3"); do xdotool mousemove_relative -- "$1" "$2"; sleep 0.03; done; sleep 0.5; }
 xdotool mousemove 400 300
 k g m; move 0 -1 8; wheel 4 12; k m
-k x g m; move 0 -1 6; move 1 0 4; wheel 4 9; move 1 0 6; wheel 4 3; wheel 5 20; k m
+k x g m; move 0 -1 10; move 1 0 2; wheel 4 9; wheel 4 6; wheel 5 22; k m
 k g g g m; move 0 1 6; wheel 4 16; k m
 k k Next; k u
 xdotool key ctrl+q
