@@ -90,12 +90,15 @@ double room_before(const AclKnee& knee, const AclLine& line, double enough_m) {
   return room;
 }
 
-// The same about what is soft and spared: drills cut it, and it holds an aimer up.
-double soft_room_before(const AclKnee& knee, const AclLine& line, double enough_m) {
+// The same about what is soft and spared: drills cut it, and it holds an aimer up. `remnant`: and
+// about what is left of the torn ligament, which would hold a drill.
+double soft_room_before(const AclKnee& knee, const AclLine& line, bool remnant, double enough_m) {
   constexpr double kFrom_m = 0.005, kTo_m = 0.06, kStride_m = 0.001;
   double room = enough_m;
   for (double before = kFrom_m; before < kTo_m && room > 0;) {
-    const double gap = knee.soft_m(line.at_W - before * line.in_W);
+    const Vec3 p_W = line.at_W - before * line.in_W;
+    double gap = knee.soft_m(p_W);
+    if (remnant) gap = std::min(gap, knee.remnant_m(p_W));
     room = std::min(room, gap);
     before += std::max(kStride_m, gap - room);
   }
@@ -110,7 +113,7 @@ double share_between(double value, double none, double all) {
 // way, bone behind it, a channel in which loop and button have their place, a mouth that is not too
 // slanted. Who does not look behind finds the least bone there.
 void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, std::string_view fault,
-                  Choice& best) {
+                  double worth_soft, Choice& best) {
   constexpr double kFlattest = 0.3, kSteep = 0.55, kShort_m = 0.027, kLong_m = 0.031;
   const Vec3 &mouth = line.at_W, &in = line.in_W;
   const double straight = -knee.normal(true, mouth).dot(in);
@@ -122,14 +125,13 @@ void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, std::
   double worth = best.given + to_old + 4 * share_between(channel, kShort_m, kLong_m) +
                  0.3 / (1 + std::abs(channel - kChannel_m) / 0.01) +
                  2 * share_between(straight, kFlattest, kSteep);
-  const double most_soft = knee.spares_softs() ? kWorthSoft : 0;
-  if (worth + 8 + most_soft <= best.worth) return;
+  if (worth + 8 + worth_soft <= best.worth) return;
   const double room = room_before(knee, line, radius + kDrillRoom_m);
   if (room <= kPinRoom_m) return;
   worth += 5 * share_between(room, radius + kTight_m, radius + kDrillRoom_m);
-  if (worth + 3 + most_soft <= best.worth) return;
-  if (knee.spares_softs())
-    worth += kWorthSoft * share_between(soft_room_before(knee, line, radius + kSoftRoom_m), 0,
+  if (worth + 3 + worth_soft <= best.worth) return;
+  if (worth_soft > 0)
+    worth += worth_soft * share_between(soft_room_before(knee, line, true, radius + kSoftRoom_m), 0,
                                         radius + kSoftRoom_m);
   if (worth + 3 <= best.worth) return;
   const double behind = std::clamp(bone_behind(knee, line, radius) / kWall_m, -1.0, 1.0);
@@ -141,12 +143,13 @@ void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, std::
 class SocketSearch {
  public:
   SocketSearch(const AclKnee& knee, const Vec3& aimed_W, double most_off_m, double radius_m,
-               std::string_view fault)
+               std::string_view fault, bool spares_softs)
       : knee_(knee),
         aimed_W_(aimed_W),
         most_off_m_(most_off_m),
         radius_m_(radius_m),
-        fault_(fault) {
+        fault_(fault),
+        worth_soft_(spares_softs ? kWorthSoft : 0) {
     forward_W_ =
         (knee.mark("blumensaat_anterior") - knee.mark("blumensaat_posterior")).normalized();
     down_W_ = forward_W_.cross(knee.normal(true, aimed_W)).normalized();
@@ -195,7 +198,7 @@ class SocketSearch {
     const Vec3 mouth = knee_.on_femur(aimed_W_ + at.forward_m * forward_W_ + at.down_m * down_W_);
     const double before = found.choice.worth;
     found.choice.given = -kWorthPerM * std::hypot(at.forward_m, at.down_m);
-    weigh_socket(knee_, {mouth, in}, radius_m_, fault_, found.choice);
+    weigh_socket(knee_, {mouth, in}, radius_m_, fault_, worth_soft_, found.choice);
     if (found.choice.worth > before) found.place = at;
   }
 
@@ -203,6 +206,7 @@ class SocketSearch {
   Vec3 aimed_W_, forward_W_, down_W_;
   double most_off_m_, radius_m_;
   std::string_view fault_;
+  double worth_soft_;
 };
 
 // How a tibial tunnel is to be.
@@ -286,13 +290,21 @@ Result<AclLine> femoral_line(const AclKnee& knee, std::string_view fault, const 
   // Who misses does not know how far, and stays there.
   const bool chooses = looks_behind && !is_steep(fault) && miss_W.isZero();
   const double radius = 0.5 * reamed_m;
-  const auto within = [&](double most_off_m) {
-    return SocketSearch(knee, aimed, most_off_m, radius, fault).best();
+  const auto best_line = [&](bool spares_softs) {
+    const auto within = [&](double most_off_m) {
+      return SocketSearch(knee, aimed, most_off_m, radius, fault, spares_softs).best();
+    };
+    Choice best = within(chooses ? kMostOff_m : 0);
+    const bool found = best.worth > -1e8;
+    if (chooses && (!found || bone_behind(knee, best.line, radius) < kOpenWall_m))
+      if (const Choice farther = within(kFarthestOff_m); farther.worth > best.worth) best = farther;
+    return best;
   };
-  Choice best = within(chooses ? kMostOff_m : 0);
-  const bool found = best.worth > -1e8;
-  if (chooses && (!found || bone_behind(knee, best.line, radius) < kOpenWall_m))
-    if (const Choice farther = within(kFarthestOff_m); farther.worth > best.worth) best = farther;
+  Choice best = best_line(false);
+  // Another one where the drill would meet a meniscus or the other cruciate ligament on its way.
+  const bool meets = best.worth > -1e8 && knee.spares_softs() &&
+                     soft_room_before(knee, best.line, false, radius) < radius;
+  if (meets) best = best_line(true);
   // Where his place is no place at all, he too sees it.
   if (best.worth < -1e8 && !miss_W.isZero())
     return femoral_line(knee, fault, Vec3::Zero(), reamed_m);
