@@ -8,12 +8,6 @@
 #include "osteon/procedure/judge.h"
 
 namespace osteon {
-namespace {
-
-constexpr double kFootprint_m = 0.012, kLeftThere_m = 0.0025;
-
-}  // namespace
-
 AclKnee::AclKnee(const Case& the_case, const Bone& femur, const Bone& tibia)
     : case_(&the_case),
       femur_(femur.mesh),
@@ -56,12 +50,6 @@ void AclKnee::spare_softs() {
   for (const SoftPart& part : case_->softs)
     if ((part.kind == "meniscus" || part.name == "pcl") && !part.mesh_W.triangles.empty())
       softs_W_.emplace_back(part.mesh_W);
-}
-
-// What is left of the torn ligament lies on its footprint.
-double AclKnee::remnant_m(const Vec3& p_W) const {
-  const bool near = (p_W - mark("acl_tibia")).norm() < kFootprint_m;
-  return near ? tibia_m(p_W) - kLeftThere_m : std::numeric_limits<double>::infinity();
 }
 
 double AclKnee::soft_m(const Vec3& p_W) const {

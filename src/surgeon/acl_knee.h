@@ -29,8 +29,6 @@ class AclKnee {
   /// From now on soft_m() knows the menisci and the other cruciate ligament.
   void spare_softs();
   bool spares_softs() const { return !softs_W_.empty(); }
-  /// Distance to what is left of the torn ligament on the tibia, about; infinite away from there.
-  double remnant_m(const Vec3& p_W) const;
   /// Distance to what is spared, negative inside; infinite: nothing is.
   double soft_m(const Vec3& p_W) const;
   /// A direction of a right knee stretched out (x to the foot, y to the other leg, z to the front),

@@ -90,15 +90,12 @@ double room_before(const AclKnee& knee, const AclLine& line, double enough_m) {
   return room;
 }
 
-// The same about what is soft and spared: drills cut it, and it holds an aimer up. `remnant`: and
-// about what is left of the torn ligament, which would hold a drill.
-double soft_room_before(const AclKnee& knee, const AclLine& line, bool remnant, double enough_m) {
+// The same about what is soft and spared: drills cut it, and it holds an aimer up.
+double soft_room_before(const AclKnee& knee, const AclLine& line, double enough_m) {
   constexpr double kFrom_m = 0.005, kTo_m = 0.06, kStride_m = 0.001;
   double room = enough_m;
   for (double before = kFrom_m; before < kTo_m && room > 0;) {
-    const Vec3 p_W = line.at_W - before * line.in_W;
-    double gap = knee.soft_m(p_W);
-    if (remnant) gap = std::min(gap, knee.remnant_m(p_W));
+    const double gap = knee.soft_m(line.at_W - before * line.in_W);
     room = std::min(room, gap);
     before += std::max(kStride_m, gap - room);
   }
@@ -131,7 +128,7 @@ void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, std::
   worth += 5 * share_between(room, radius + kTight_m, radius + kDrillRoom_m);
   if (worth + 3 + worth_soft <= best.worth) return;
   if (worth_soft > 0)
-    worth += worth_soft * share_between(soft_room_before(knee, line, true, radius + kSoftRoom_m), 0,
+    worth += worth_soft * share_between(soft_room_before(knee, line, radius + kSoftRoom_m), 0,
                                         radius + kSoftRoom_m);
   if (worth + 3 <= best.worth) return;
   const double behind = std::clamp(bone_behind(knee, line, radius) / kWall_m, -1.0, 1.0);
@@ -303,7 +300,7 @@ Result<AclLine> femoral_line(const AclKnee& knee, std::string_view fault, const 
   Choice best = best_line(false);
   // Another one where the drill would meet a meniscus or the other cruciate ligament on its way.
   const bool meets = best.worth > -1e8 && knee.spares_softs() &&
-                     soft_room_before(knee, best.line, false, radius) < radius;
+                     soft_room_before(knee, best.line, radius) < radius;
   if (meets) best = best_line(true);
   // Where his place is no place at all, he too sees it.
   if (best.worth < -1e8 && !miss_W.isZero())
