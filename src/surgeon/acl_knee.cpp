@@ -8,6 +8,7 @@
 #include "osteon/procedure/judge.h"
 
 namespace osteon {
+
 AclKnee::AclKnee(const Case& the_case, const Bone& femur, const Bone& tibia)
     : case_(&the_case),
       femur_(femur.mesh),
