@@ -20,6 +20,7 @@ bool SoundPartWatch::is_sound(SubjectKind of, std::uint32_t soft) const {
 // What is missing from the snapshot has lost nothing, or has it back.
 void SoundPartWatch::tell_losses(std::uint64_t tick, const BoneSnapshot& bones,
                                  std::vector<Event>& out) {
+  if (bones.softs.loss_count == 0 && lost_.empty()) return;
   std::map<std::uint32_t, double> now;
   for (std::uint32_t i = 0; i < std::min<std::size_t>(bones.softs.loss_count, kMaxSoftLosses);
        ++i) {

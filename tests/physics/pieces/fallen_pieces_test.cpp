@@ -348,13 +348,18 @@ TEST(FallenPieces, SuctionTakesASmallPieceAway) {
   EXPECT_TRUE(rig.pieces.empty());
 }
 
-TEST(FallenPieces, ALargePieceSticksToTheSuction) {
-  PieceRig rig(table(), {"suction:4"});
+// A ball of 6 mm lies on the table; the cannula comes over it and draws.
+void suck_a_ball(PieceRig& rig) {
   rig.add(ball_piece(0.003), Vec3(0, 0, 0.003));
   rig.step(300);
   rig.tool.X_WP.p = Vec3(0, 0, 0.0085);
   rig.tool.power = 1;
   rig.step(500);
+}
+
+TEST(FallenPieces, ALargePieceSticksToTheSuction) {
+  PieceRig rig(table(), {"suction:4"});
+  suck_a_ball(rig);
   ASSERT_EQ(rig.piece().is, FallenPiece::Is::kHeld);
   EXPECT_TRUE(rig.piece().drawn);
   rig.tool.power = 0;
@@ -366,11 +371,7 @@ TEST(FallenPieces, ALargePieceSticksToTheSuction) {
 // it is not held anew and let go in every step while it is pushed out.
 TEST(FallenPieces, WhatBoneTakesOffTheSuctionIsNotHeldAgainAtOnce) {
   PieceRig rig(table(), {"suction:4"});
-  rig.add(ball_piece(0.003), Vec3(0, 0, 0.003));
-  rig.step(300);
-  rig.tool.X_WP.p = Vec3(0, 0, 0.0085);
-  rig.tool.power = 1;
-  rig.step(500);
+  suck_a_ball(rig);
   ASSERT_EQ(rig.piece().is, FallenPiece::Is::kHeld);
   int let_go = 0;
   for (int n = 0; n < 200; ++n) {
@@ -385,11 +386,7 @@ TEST(FallenPieces, WhatBoneTakesOffTheSuctionIsNotHeldAgainAtOnce) {
 // What suction holds is in the middle of a part 2 mm thick: how often it is let go in 100 steps.
 int let_go_in_thin(bool heeds_thin) {
   PieceRig rig(table(), {"suction:4"});
-  rig.add(ball_piece(0.003), Vec3(0, 0, 0.003));
-  rig.step(300);
-  rig.tool.X_WP.p = Vec3(0, 0, 0.0085);
-  rig.tool.power = 1;
-  rig.step(500);
+  suck_a_ball(rig);
   EXPECT_EQ(rig.piece().is, FallenPiece::Is::kHeld);
   StoppingFloor floor;
   floor.half_m = 0.001;

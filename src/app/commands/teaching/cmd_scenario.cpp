@@ -154,6 +154,15 @@ Result<std::string> with_hulls(const std::string& spec) {
   return to_text(*choice);
 }
 
+// What is soft, or lies under a mark that is to be felt, is not known without the soft parts.
+bool needs_softs(const Scenario& scenario) {
+  const auto is_felt = [](const Rule& goal) { return goal.kind == "felt"; };
+  return !scenario.soft.empty() ||
+         std::any_of(scenario.stages.begin(), scenario.stages.end(), [&](const ScenarioStage& s) {
+           return std::any_of(s.goals.begin(), s.goals.end(), is_felt);
+         });
+}
+
 int check_one(const ScenarioCommand& command) {
   const auto scenario = open_scenario(command.scenario);
   if (!scenario) return report_error(scenario.error());
@@ -161,7 +170,7 @@ int check_one(const ScenarioCommand& command) {
   if (command.case_spec.empty()) spec = with_hulls(case_spec_of(*scenario, "", {}));
   if (!spec) return report_error(spec.error());
   const auto the_case =
-      open_case(*spec, {}, scenario->soft.empty() ? CaseParts::kFelt : CaseParts::kAll);
+      open_case(*spec, {}, needs_softs(*scenario) ? CaseParts::kAll : CaseParts::kFelt);
   if (!the_case) return report_error(the_case.error());
   auto lines = check_scenario(*scenario, **the_case);
   SessionSettings settings;
