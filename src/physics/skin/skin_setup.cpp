@@ -263,9 +263,8 @@ Result<std::vector<SkinTool>> make_skin_tools(std::span<const std::string> tray)
     const auto size = named->size_mm ? find_size(*found, *named->size_mm)
                                      : std::optional<std::size_t>(found->usual_size);
     if (!size) return fail("the instrument has no such size", tray[i]);
-    const bool needle = name == kSpinalNeedle;
-    out[i] = skin_tool(make_tool(*found, *size), needle || name.starts_with("trocar"));
-    out[i].makes_portal = !needle;
+    out[i] = skin_tool(make_tool(*found, *size), pierces_skin(name));
+    out[i].makes_portal = name != kSpinalNeedle;
     out[i].retracts = found->can(InstrumentFunction::kRetract);
   }
   return out;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/scene/needle.h"
+
 namespace osteon {
 namespace {
 
@@ -47,13 +49,20 @@ bool has_effect(const Instrument& instrument, InstrumentFunction function) {
   // Of the water in a joint, and of wounds that bleed into it.
   if (function == kSuck || function == kBurn) return instrument.power.has_value();
   if (works_on_grafts(instrument.name)) return true;
-  if (function == kRemove) return instrument.removal || instrument.clears;
+  // What cuts and removes bites with its jaw: what it takes of a meniscus is gone.
+  const bool bites = instrument.jaws && instrument.can(kCut) && instrument.can(kRemove);
+  if (function == kRemove) return instrument.removal || instrument.clears || bites;
   if (function == kLook) return instrument.optics.has_value();
-  // An edge cuts ligaments and menisci that are felt, a jaw bites menisci; what else removes does
-  // not cut yet.
-  if (function == kCut) return instrument.jaws.has_value() || !instrument.can(kRemove);
+  // An edge cuts ligaments and menisci that are felt; what else removes does not cut yet.
+  if (function == kCut) return instrument.jaws || !instrument.can(kRemove);
+  // A needle shows where a portal comes through, a trocar makes one for what follows.
   if (function == kGuide)
-    return instrument.aims || (instrument.removal && instrument.removal->way == RemovalWay::kDrill);
+    return instrument.aims || pierces_skin(instrument.name) ||
+           (instrument.removal && instrument.removal->way == RemovalWay::kDrill);
+  // Its motor, or the hand, drives it into the bone.
+  if (function == kDrive)
+    return instrument.removal && (instrument.removal->way == RemovalWay::kDrill ||
+                                  instrument.removal->way == RemovalWay::kTwist);
   if (function == kGrasp) return instrument.jaws && instrument.jaws->holds_n > 0;
   // A retractor holds tissue back by standing in its way.
   return function == kProbe || function == kRetract;

@@ -126,6 +126,17 @@ TEST(Instrument, AFunctionWithoutEffectIsSaidSo) {
   EXPECT_TRUE(has_effect(drill, InstrumentFunction::kRemove));
   EXPECT_TRUE(has_effect(rongeur, InstrumentFunction::kProbe));
   EXPECT_FALSE(has_effect(rongeur, InstrumentFunction::kRemove));
+  // A motor that drills drives what it turns; a burr is only held.
+  drill.functions.push_back(InstrumentFunction::kDrive);
+  EXPECT_TRUE(has_effect(drill, InstrumentFunction::kDrive));
+  drill.removal->way = RemovalWay::kBurr;
+  EXPECT_FALSE(has_effect(drill, InstrumentFunction::kDrive));
+  // A needle shows the way through skin.
+  Instrument needle;
+  needle.functions = {InstrumentFunction::kGuide};
+  EXPECT_FALSE(has_effect(needle, InstrumentFunction::kGuide));
+  needle.name = "spinal_needle";
+  EXPECT_TRUE(has_effect(needle, InstrumentFunction::kGuide));
   // What it cannot do has none either.
   EXPECT_FALSE(has_effect(drill, InstrumentFunction::kCut));
   Instrument blade;
@@ -137,7 +148,7 @@ TEST(Instrument, AFunctionWithoutEffectIsSaidSo) {
   EXPECT_FALSE(has_effect(punch, InstrumentFunction::kCut));
   punch.jaws.emplace();
   EXPECT_TRUE(has_effect(punch, InstrumentFunction::kCut));
-  EXPECT_FALSE(has_effect(punch, InstrumentFunction::kRemove));
+  EXPECT_TRUE(has_effect(punch, InstrumentFunction::kRemove));
   drill.functions = {InstrumentFunction::kProbe};
   EXPECT_FALSE(has_effect(drill, InstrumentFunction::kRemove));
   // Water is sucked and a wound is burnt by what has power.
