@@ -11,9 +11,11 @@ Pose to_bone(const Case& the_case, const char* name) {
 
 }  // namespace
 
-Result<AclPlan> plan_tunnels(const Case& the_case, std::string_view fault, double reamed_m) {
-  const auto knee = AclKnee::make(the_case);
+Result<AclPlan> plan_tunnels(const Case& the_case, std::string_view fault, double reamed_m,
+                             bool spares_softs) {
+  auto knee = AclKnee::make(the_case);
   if (!knee) return tl::unexpected(knee.error());
+  if (spares_softs) knee->spare_softs();
   const auto tibia = tibial_line(*knee, fault, Vec3::Zero(), reamed_m);
   if (!tibia) return tl::unexpected(tibia.error());
   const auto femur = femoral_line(*knee, fault, Vec3::Zero(), reamed_m);

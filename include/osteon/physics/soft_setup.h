@@ -42,6 +42,9 @@ struct SoftSetup {
   bool suction_heeds_thin = false;  ///< it leaves what a thin part would take off it at once
   /// What one hand presses on a solid brings it no nearer to another than the first is deep in it.
   bool presses_are_bounded = false;
+  /// What lies inside another part of a tool touches no solid, and what follows a part that presses
+  /// one comes on its side.
+  bool parts_are_one = false;
   bool by_strands = false;    ///< bands are cut and torn strand by strand
   bool bridges_tear = false;  ///< what jaws pull off a solid tears where it is narrow
   bool hooks_tear = false;    ///< off a solid, as jaws do
@@ -77,6 +80,9 @@ void let_suction_heed_thin_parts(SoftSetup& setup);
 /// Two hands that press a solid towards one another raise each other's forces no further than that
 /// (SoftSetup::presses_are_bounded). Nothing changes where there are no solids.
 void let_presses_be_bounded(SoftSetup& setup);
+/// Parts of a tool press solids as one body (SoftSetup::parts_are_one): a shaft is not stopped by
+/// what the thicker head before it has pressed aside. Nothing changes where there are no solids.
+void let_parts_press_as_one(SoftSetup& setup);
 /// A hook tears off what jaws would (let_bridges_tear), and a punch bites strands off bands.
 /// Nothing changes where neither bands nor solids are cut.
 void let_hooks_tear_and_punches_bite(SoftSetup& setup);

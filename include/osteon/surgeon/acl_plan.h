@@ -15,7 +15,9 @@ struct AclPlan {
 };
 
 /// Of an expert in a bent knee; `fault`: one of acl_faults() that is about a tunnel, or nothing.
-/// Fails as plan_acl does.
-Result<AclPlan> plan_tunnels(const Case& the_case, std::string_view fault, double reamed_m);
+/// `spares_softs`: the way to the femur keeps off menisci and the other cruciate ligament, which
+/// are felt. Fails as plan_acl does.
+Result<AclPlan> plan_tunnels(const Case& the_case, std::string_view fault, double reamed_m,
+                             bool spares_softs = false);
 
 }  // namespace osteon

@@ -213,6 +213,12 @@ void let_presses_be_bounded(SoftSetup& setup) {
   tell_hash(setup, "presses are bounded");
 }
 
+void let_parts_press_as_one(SoftSetup& setup) {
+  if (setup.solids.empty()) return;
+  setup.parts_are_one = true;
+  tell_hash(setup, "parts press as one");
+}
+
 void let_hooks_tear_and_punches_bite(SoftSetup& setup) {
   const auto bites = [](const std::optional<SolidCutter>& cutter) {
     return cutter && cutter->way == SolidCutter::Way::kBite;

@@ -51,6 +51,12 @@ CapsuleContact lead_outside(const FieldView& field, const RoundBox& part, Vec3& 
   return c;
 }
 
+// How far a place is from what a part fills; negative: inside of it.
+double outside_of(const RoundBox& part, const Vec3& p) {
+  const AxisPoints near = nearest_on_cores(round_box(Capsule{p, p, 0}), part);
+  return (near.a - near.b).norm() - part.rod.radius;
+}
+
 double along_of(const Capsule& part, const Vec3& p_axis) {
   const Vec3 way = part.p1 - part.p0;
   const double square = way.squaredNorm();
@@ -72,15 +78,55 @@ Vec3 SolidPresses::middle(const SolidNear& near, const SolidHand& hand) const {
   return middle_of(in_bone(near.contact.solid, hand, near.contact.part));
 }
 
+// Another part of the tool that presses the same solid, and in which the place of this part lies
+// that would touch: no surface of the tool is there. Null: it is one.
+const SolidNear* SolidPresses::covering(const SolidHandState& state, const SolidNear& near,
+                                        const SolidHand& hand, const Vec3& place_B) const {
+  for (std::uint32_t i = 0; i < state.count; ++i) {
+    const SolidNear& other = state.near[i];
+    if (!other.touching || other.barred || other.contact.solid != near.contact.solid ||
+        other.contact.part == near.contact.part)
+      continue;
+    if (outside_of(in_bone(other.contact.solid, hand, other.contact.part), place_B) < 0)
+      return &other;
+  }
+  return nullptr;
+}
+
+// Which other part of the tool presses the same solid deepest, and how far it is led outside.
+std::optional<Vec3> SolidPresses::led_by_others(const SolidHandState& state, const SolidNear& near,
+                                                const SolidHand& hand) const {
+  const SolidNear* deepest = nullptr;
+  for (std::uint32_t i = 0; i < state.count; ++i) {
+    const SolidNear& other = state.near[i];
+    if (!other.touching || other.barred || other.contact.solid != near.contact.solid ||
+        other.contact.part == near.contact.part)
+      continue;
+    if (!deepest || other.deep_m > deepest->deep_m) deepest = &other;
+  }
+  if (!deepest) return {};
+  return deepest->outside_B - middle(*deepest, hand);
+}
+
 // False: the part has gone.
-bool SolidPresses::keep(SolidNear& near, const SolidHand& hand) const {
+bool SolidPresses::keep(SolidNear& near, const SolidHand& hand, const SolidHandState& state) const {
   SolidContact& contact = near.contact;
   if (hand.lifted >> contact.part & 1 || hand.held == contact.solid) return false;
   const FieldView field = view(contact.solid);
   const RoundBox part = in_bone(contact.solid, hand, contact.part);
   Vec3 o = near.barred ? Vec3(Vec3::Zero()) : Vec3(near.outside_B - middle_of(part));
-  const CapsuleContact c = near.barred ? round_contact(field, part) : lead_outside(field, part, o);
+  CapsuleContact c = near.barred ? round_contact(field, part) : lead_outside(field, part, o);
   if (c.status != LpStatus::kOptimal) return false;
+  const auto touches_at = [&] { return Vec3(c.p_axis_A - o - part.rod.radius * c.nhat_AB_A); };
+  // A part that is covered there has gone the way of what covers it, or it is not felt.
+  if (parts_are_one_ && !near.barred) {
+    if (const SolidNear* other = covering(state, near, hand, touches_at())) {
+      o = other->outside_B - middle(*other, hand);
+      near.outside_B = middle_of(part) + o;
+      c = lead_outside(field, part, o);
+      if (c.status != LpStatus::kOptimal || covering(state, near, hand, touches_at())) return false;
+    }
+  }
   near.deep_m = c.nhat_AB_A.dot(o) - c.gap;
   if (near.deep_m < -kSolidNear_m) return false;
   near.touching = near.deep_m > 0;
@@ -97,6 +143,19 @@ bool SolidPresses::keep(SolidNear& near, const SolidHand& hand) const {
   else
     contact.along = along_of(there.rod, c.p_axis_A);
   return true;
+}
+
+// What is inside because it follows another part of the tool, which presses, comes on that one's
+// side.
+void SolidPresses::come_behind(const SolidHandState& state, const SolidHand& hand,
+                               const FieldView& field, const RoundBox& part_B,
+                               SolidNear& near) const {
+  const auto o = led_by_others(state, near, hand);
+  if (!o) return;
+  const CapsuleContact c = round_contact(field, shifted_part(part_B, *o), kSolidNear_m);
+  if (c.status != LpStatus::kOptimal || c.gap < 0) return;
+  near.barred = false;
+  near.outside_B += *o;
 }
 
 void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const {
@@ -119,7 +178,8 @@ void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_
     near.contact.part = static_cast<std::uint32_t>(part);
     near.barred = c.gap < 0;
     near.outside_B = middle_of(part_B);
-    if (!keep(near, hand)) continue;
+    if (near.barred && parts_are_one_) come_behind(state, hand, field, part_B, near);
+    if (!keep(near, hand, state)) continue;
     near.slid_B.setZero();
     state.near[state.count++] = near;
   }
@@ -127,10 +187,11 @@ void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_
 
 void SolidPresses::follow(SolidHandState& state, const SolidHand& hand,
                           const SoftState& all) const {
+  const SolidHandState before = state;
   std::uint32_t kept = 0;
-  for (std::uint32_t i = 0; i < state.count; ++i) {
-    SolidNear near = state.near[i];
-    if (all.solid_lost[near.contact.solid] || !keep(near, hand)) continue;
+  for (std::uint32_t i = 0; i < before.count; ++i) {
+    SolidNear near = before.near[i];
+    if (all.solid_lost[near.contact.solid] || !keep(near, hand, before)) continue;
     state.near[kept++] = near;
   }
   state.count = kept;

@@ -35,7 +35,8 @@ class SolidPresses {
   SolidPresses(const SoftSetup& setup, double coupling_n_per_m)
       : solids_(setup.solids),
         coupling_n_per_m_(coupling_n_per_m),
-        bounded_(setup.presses_are_bounded) {}
+        bounded_(setup.presses_are_bounded),
+        parts_are_one_(setup.parts_are_one) {}
 
   /// What cuts have left of a solid: its holes, and what it is like now. Nulls: it is whole.
   void set_cut(std::size_t solid, const CutField* holes, std::shared_ptr<const PressedSolid> body) {
@@ -62,7 +63,13 @@ class SolidPresses {
 
  private:
   RoundBox in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const;
-  bool keep(SolidNear& near, const SolidHand& hand) const;
+  const SolidNear* covering(const SolidHandState& state, const SolidNear& near,
+                            const SolidHand& hand, const Vec3& place_B) const;
+  std::optional<Vec3> led_by_others(const SolidHandState& state, const SolidNear& near,
+                                    const SolidHand& hand) const;
+  bool keep(SolidNear& near, const SolidHand& hand, const SolidHandState& state) const;
+  void come_behind(const SolidHandState& state, const SolidHand& hand, const FieldView& field,
+                   const RoundBox& part_B, SolidNear& near) const;
   void seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const;
   std::optional<SoftPushes::One> pull_on(std::size_t solid, const SoftGrip& grip) const;
   double others(const SolidNear& near, const SolidPush& push, const SoftState& all) const;
@@ -71,7 +78,7 @@ class SolidPresses {
 
   const std::vector<SoftSolid>& solids_;
   double coupling_n_per_m_;
-  bool bounded_;
+  bool bounded_, parts_are_one_;
   std::array<Pose, kMaxSolids> X_WB_{};
   std::array<const CutField*, kMaxSolids> holes_{};
   std::array<std::shared_ptr<const PressedSolid>, kMaxSolids> bodies_{};

@@ -42,6 +42,51 @@ TEST(AclPlan, AWiderDrillHasItsRoomOnTheWay) {
   }
 }
 
+// The least room about the way to a socket, as the drill's head passes it, to menisci and the other
+// cruciate ligament.
+double least_soft_room(const Case& knee, const AclPlan& plan) {
+  const Bone& femur = knee.bones[knee.find("femur").index];
+  double least = 1;
+  for (const SoftPart& part : knee.softs) {
+    if (part.kind != "meniscus" && part.name != "pcl") continue;
+    const MeshDistance to_part(part.mesh_W);
+    for (double before = 0.005; before < 0.06; before += 0.0005)
+      least = std::min(
+          least,
+          to_part.closest(femur.X_WB * (plan.femur_B - before * plan.femur_in_B)).signed_distance);
+  }
+  return least;
+}
+
+// Whose menisci and ligaments are felt is not drilled through them: another line is taken where the
+// first would meet one, and the same where it does not.
+TEST(AclPlan, TheWayToTheFemurKeepsOffWhatIsSoftAndSpared) {
+  constexpr double kRadius_m = 0.004;
+  int met = 0, kept = 0;
+  for (const char* spec : {"builtin:knee:3:right:acl_tear=midsubstance#hull,flexion=120",
+                           "builtin:knee:4:left:acl_tear=midsubstance#hull,flexion=120",
+                           "builtin:knee:5:right:acl_tear=midsubstance#hull,flexion=120"}) {
+    SCOPED_TRACE(spec);
+    const auto knee = open_case(spec);
+    ASSERT_TRUE(knee) << knee.error().message();
+    const auto heedless = plan_tunnels(**knee, "", 2 * kRadius_m);
+    const auto sparing = plan_tunnels(**knee, "", 2 * kRadius_m, true);
+    ASSERT_TRUE(heedless && sparing);
+    std::printf("ROOM %s %g %g\n", spec, 1e3 * least_soft_room(**knee, *heedless),
+                1e3 * least_soft_room(**knee, *sparing));
+    if (least_soft_room(**knee, *heedless) < kRadius_m) {
+      ++met;
+      EXPECT_GT(least_soft_room(**knee, *sparing), kRadius_m);
+    } else {
+      ++kept;
+      EXPECT_EQ(sparing->femur_in_B, heedless->femur_in_B);
+      EXPECT_EQ(sparing->femur_B, heedless->femur_B);
+    }
+  }
+  EXPECT_GT(met, 0);
+  EXPECT_GT(kept, 0);
+}
+
 // Least distance of a new axis, as far as `length_m`, from that of an old tunnel.
 double from_old(const Case& knee, bool of_femur, const AclPlan& plan, double length_m) {
   const Bone& bone = knee.bones[knee.find(of_femur ? "femur" : "tibia").index];

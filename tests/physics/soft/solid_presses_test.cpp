@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "osteon/base/turn.h"
 #include "osteon/physics/soft_solid_setup.h"
 #include "osteon/scene/case.h"
@@ -118,6 +120,85 @@ TEST(SolidPresses, APullBringsAPlaceNoNearerThanTheJawsHaveGone) {
   EXPECT_GT(pinched.press_first(), 100 * alone_n);
   let_presses_be_bounded(pinched.setup);
   EXPECT_NEAR(pinched.press_first(), 1.5 * alone_n, 0.02 * alone_n);
+}
+
+// A drill: a head and the smooth shaft behind it, which is hardly thinner.
+struct DrillOverBlock {
+  std::shared_ptr<const Case> the_case = block_case();
+  SoftSetup setup;
+  BoneSnapshot bones;
+  SoftState state;
+  SolidHand hand;
+  ToolState tool;
+  std::vector<RoundBox> parts;
+
+  explicit DrillOverBlock(bool as_one) {
+    auto solids = make_soft_solids(*the_case, std::vector<std::string>{"menisci"}, kBlock_n_per_m);
+    EXPECT_TRUE(solids);
+    if (solids) add_solids(setup, std::move(*solids));
+    if (as_one) let_parts_press_as_one(setup);
+    bones = rest_snapshot(*the_case);
+    parts.push_back(round_box(Capsule{{0, 0, 0.022}, {0, 0, 0.2}, kShaft_m}));
+    parts.push_back(round_box(Capsule{{0, 0, 0.0022}, {0, 0, 0.022}, kHead_m}));
+    // Its shaft towards +y, which is across the block, over the block's free end.
+    tool.X_WP.q = Quat(Eigen::AngleAxisd(-kTurn / 4, Vec3::UnitX()));
+    tool.X_WP.p = {0.008, -0.012, kBlockHalf.z() + kHead_m + 0.002};
+    hand.tool = &tool;
+    hand.parts = parts;
+  }
+  void move(const Vec3& by, int steps) {
+    SolidPresses presses(setup, kCoupling_n_per_m);
+    ASSERT_TRUE(presses.place(0, bones));
+    for (int n = 0; n < steps; ++n) {
+      tool.X_WP.p += by / steps;
+      presses.follow(state.solid_hands[0], hand, state);
+      presses.press(state.solid_hands[0], hand, state);
+      for (std::uint32_t i = 0; i < state.solid_hands[0].count; ++i) {
+        const SolidNear& near = state.solid_hands[0].near[i];
+        along_n = std::max(along_n, std::abs(near.contact.nhat_B.y()) * near.force_n);
+        barred = barred || near.barred;
+      }
+    }
+  }
+  double up_n() const {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < state.solid_hands[0].count; ++i)
+      sum += state.solid_hands[0].near[i].contact.nhat_B.z() * state.solid_hands[0].near[i].force_n;
+    return sum;
+  }
+  double along_n = 0;  ///< most that it was held along itself
+  bool barred = false;
+
+  static constexpr double kTurn = 2 * std::numbers::pi, kHead_m = 0.00215, kShaft_m = 0.002125;
+};
+
+// The head of a drill presses the block's surface aside; the shaft behind it slides on over what
+// the head has pressed down, and is not stopped by the block's side as if the block still stood
+// there.
+TEST(SolidPresses, AShaftIsNotStoppedByWhatItsHeadHasPressedAside) {
+  for (const bool as_one : {false, true}) {
+    SCOPED_TRACE(as_one);
+    DrillOverBlock drill(as_one);
+    drill.move({0, 0, -0.003}, 100);
+    const double head_n = drill.up_n();
+    ASSERT_GT(head_n, 0.1);
+    EXPECT_LT(drill.along_n, 0.05 * head_n);
+    drill.move({0, -0.016, 0}, 800);
+    if (!as_one) {
+      EXPECT_TRUE(drill.barred || drill.along_n > head_n);  // before it was so, it was stopped
+      continue;
+    }
+    EXPECT_LT(drill.along_n, 0.05 * head_n);
+    EXPECT_NEAR(drill.up_n(), head_n, 0.2 * head_n);
+    EXPECT_FALSE(drill.barred);
+  }
+}
+
+TEST(SolidPresses, PartsPressAsOneOnlyWhereThereAreSolids) {
+  SoftSetup setup;
+  let_parts_press_as_one(setup);
+  EXPECT_FALSE(setup.parts_are_one);
+  EXPECT_EQ(setup.hash, SoftSetup().hash);
 }
 
 }  // namespace
