@@ -64,8 +64,9 @@ TEST(AclPlan, TheWayToTheFemurKeepsOffWhatIsSoftAndSpared) {
   constexpr double kRadius_m = 0.004;
   int met = 0, kept = 0;
   for (const char* spec : {"builtin:knee:3:right:acl_tear=midsubstance#hull,flexion=120",
-                           "builtin:knee:4:left:acl_tear=midsubstance#hull,flexion=120",
-                           "builtin:knee:5:right:acl_tear=midsubstance#hull,flexion=120"}) {
+                           "builtin:knee:0:right:acl_tear=midsubstance#hull,flexion=120",
+                           "builtin:knee:1:left:acl_tear=midsubstance#hull,flexion=120",
+                           "builtin:knee:2:right:acl_tear=midsubstance#hull,flexion=120"}) {
     SCOPED_TRACE(spec);
     const auto knee = open_case(spec);
     ASSERT_TRUE(knee) << knee.error().message();
