@@ -63,18 +63,16 @@ double least_soft_room(const Case& knee, const AclPlan& plan) {
 TEST(AclPlan, TheWayToTheFemurKeepsOffWhatIsSoftAndSpared) {
   constexpr double kRadius_m = 0.004;
   int met = 0, kept = 0;
-  for (const char* spec : {"builtin:knee:3:right:acl_tear=midsubstance#hull,flexion=120",
-                           "builtin:knee:0:right:acl_tear=midsubstance#hull,flexion=120",
-                           "builtin:knee:1:left:acl_tear=midsubstance#hull,flexion=120",
-                           "builtin:knee:2:right:acl_tear=midsubstance#hull,flexion=120"}) {
+  for (const char* spec : {
+           "builtin:knee:3:right:acl_tear=midsubstance#hull,flexion=120",
+           "builtin:knee:0:right:acl_tear=midsubstance#hull,flexion=120",
+       }) {
     SCOPED_TRACE(spec);
     const auto knee = open_case(spec);
     ASSERT_TRUE(knee) << knee.error().message();
     const auto heedless = plan_tunnels(**knee, "", 2 * kRadius_m);
     const auto sparing = plan_tunnels(**knee, "", 2 * kRadius_m, true);
     ASSERT_TRUE(heedless && sparing);
-    std::printf("ROOM %s %g %g\n", spec, 1e3 * least_soft_room(**knee, *heedless),
-                1e3 * least_soft_room(**knee, *sparing));
     if (least_soft_room(**knee, *heedless) < kRadius_m) {
       ++met;
       EXPECT_GT(least_soft_room(**knee, *sparing), kRadius_m);
