@@ -16,6 +16,8 @@ constexpr double kStride_m = 0.0002;  // beyond what a gap allows: thinner than 
 constexpr int kStrides = 24;
 // Parts of one tool that press so near to one another are one push: the deeper counts.
 constexpr double kOnePush_m = 0.004, kOneWay = 0.5;
+// So deep in another part a part has no surface. Ends that share a face are both felt.
+constexpr double kCovered_m = 0.00005;
 
 RoundBox shifted_part(const RoundBox& part, const Vec3& by) {
   RoundBox out = part;
@@ -87,7 +89,7 @@ const SolidNear* SolidPresses::covering(const SolidHandState& state, const Solid
     if (!other.touching || other.barred || other.contact.solid != near.contact.solid ||
         other.contact.part == near.contact.part)
       continue;
-    if (outside_of(in_bone(other.contact.solid, hand, other.contact.part), place_B) < 0)
+    if (outside_of(in_bone(other.contact.solid, hand, other.contact.part), place_B) < -kCovered_m)
       return &other;
   }
   return nullptr;
