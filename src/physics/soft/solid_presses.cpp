@@ -59,6 +59,12 @@ double outside_of(const RoundBox& part, const Vec3& p) {
   return (near.a - near.b).norm() - part.rod.radius;
 }
 
+// Whether it is another part of the tool that presses the same solid.
+bool presses_too(const SolidNear& other, const SolidNear& near) {
+  return other.touching && !other.barred && other.contact.solid == near.contact.solid &&
+         other.contact.part != near.contact.part;
+}
+
 double along_of(const Capsule& part, const Vec3& p_axis) {
   const Vec3 way = part.p1 - part.p0;
   const double square = way.squaredNorm();
@@ -86,9 +92,7 @@ const SolidNear* SolidPresses::covering(const SolidHandState& state, const Solid
                                         const SolidHand& hand, const Vec3& place_B) const {
   for (std::uint32_t i = 0; i < state.count; ++i) {
     const SolidNear& other = state.near[i];
-    if (!other.touching || other.barred || other.contact.solid != near.contact.solid ||
-        other.contact.part == near.contact.part)
-      continue;
+    if (!presses_too(other, near)) continue;
     if (outside_of(in_bone(other.contact.solid, hand, other.contact.part), place_B) < -kCovered_m)
       return &other;
   }
@@ -101,34 +105,49 @@ std::optional<Vec3> SolidPresses::led_by_others(const SolidHandState& state, con
   const SolidNear* deepest = nullptr;
   for (std::uint32_t i = 0; i < state.count; ++i) {
     const SolidNear& other = state.near[i];
-    if (!other.touching || other.barred || other.contact.solid != near.contact.solid ||
-        other.contact.part == near.contact.part)
-      continue;
+    if (!presses_too(other, near)) continue;
     if (!deepest || other.deep_m > deepest->deep_m) deepest = &other;
   }
   if (!deepest) return {};
   return deepest->outside_B - middle(*deepest, hand);
 }
 
+// Where a part meets its solid once it is led outside, by `o`; none: nowhere.
+std::optional<CapsuleContact> SolidPresses::meet(SolidNear& near, const RoundBox& part,
+                                                 const SolidHand& hand, const SolidHandState& state,
+                                                 Vec3& o) const {
+  const FieldView field = view(near.contact.solid);
+  CapsuleContact c;
+  const auto found = [&] { return c.status == LpStatus::kOptimal; };
+  const auto covered_by = [&] {
+    return covering(state, near, hand, c.p_axis_A - o - part.rod.radius * c.nhat_AB_A);
+  };
+  if (near.barred) {
+    c = round_contact(field, part);
+    return found() ? std::optional(c) : std::nullopt;
+  }
+  o = near.outside_B - middle_of(part);
+  c = lead_outside(field, part, o);
+  if (!found()) return {};
+  const SolidNear* other = parts_are_one_ ? covered_by() : nullptr;
+  if (!other) return c;
+  // It has gone the way of what covers it, or it is not felt.
+  o = other->outside_B - middle(*other, hand);
+  near.outside_B = middle_of(part) + o;
+  c = lead_outside(field, part, o);
+  if (!found() || covered_by()) return {};
+  return c;
+}
+
 // False: the part has gone.
 bool SolidPresses::keep(SolidNear& near, const SolidHand& hand, const SolidHandState& state) const {
   SolidContact& contact = near.contact;
   if (hand.lifted >> contact.part & 1 || hand.held == contact.solid) return false;
-  const FieldView field = view(contact.solid);
   const RoundBox part = in_bone(contact.solid, hand, contact.part);
-  Vec3 o = near.barred ? Vec3(Vec3::Zero()) : Vec3(near.outside_B - middle_of(part));
-  CapsuleContact c = near.barred ? round_contact(field, part) : lead_outside(field, part, o);
-  if (c.status != LpStatus::kOptimal) return false;
-  const auto touches_at = [&] { return Vec3(c.p_axis_A - o - part.rod.radius * c.nhat_AB_A); };
-  // A part that is covered there has gone the way of what covers it, or it is not felt.
-  if (parts_are_one_ && !near.barred) {
-    if (const SolidNear* other = covering(state, near, hand, touches_at())) {
-      o = other->outside_B - middle(*other, hand);
-      near.outside_B = middle_of(part) + o;
-      c = lead_outside(field, part, o);
-      if (c.status != LpStatus::kOptimal || covering(state, near, hand, touches_at())) return false;
-    }
-  }
+  Vec3 o = Vec3::Zero();
+  const auto met = meet(near, part, hand, state, o);
+  if (!met) return false;
+  const CapsuleContact& c = *met;
   near.deep_m = c.nhat_AB_A.dot(o) - c.gap;
   if (near.deep_m < -kSolidNear_m) return false;
   near.touching = near.deep_m > 0;

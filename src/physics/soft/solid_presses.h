@@ -67,6 +67,8 @@ class SolidPresses {
                             const SolidHand& hand, const Vec3& place_B) const;
   std::optional<Vec3> led_by_others(const SolidHandState& state, const SolidNear& near,
                                     const SolidHand& hand) const;
+  std::optional<CapsuleContact> meet(SolidNear& near, const RoundBox& part, const SolidHand& hand,
+                                     const SolidHandState& state, Vec3& o) const;
   bool keep(SolidNear& near, const SolidHand& hand, const SolidHandState& state) const;
   void come_behind(const SolidHandState& state, const SolidHand& hand, const FieldView& field,
                    const RoundBox& part_B, SolidNear& near) const;
