@@ -45,10 +45,11 @@ struct SoftSetup {
   /// What lies inside another part of a tool touches no solid, and what follows a part that presses
   /// one comes on its side.
   bool parts_are_one = false;
-  bool by_strands = false;    ///< bands are cut and torn strand by strand
-  bool bridges_tear = false;  ///< what jaws pull off a solid tears where it is narrow
-  bool hooks_tear = false;    ///< off a solid, as jaws do
-  bool punches_bite = false;  ///< strands off bands
+  bool clears_by_strides = false;  ///< what clears does nothing before it has gone a little way
+  bool by_strands = false;         ///< bands are cut and torn strand by strand
+  bool bridges_tear = false;       ///< what jaws pull off a solid tears where it is narrow
+  bool hooks_tear = false;         ///< off a solid, as jaws do
+  bool punches_bite = false;       ///< strands off bands
   std::vector<std::optional<SolidCutter>> biters;  ///< by the tray: what bites bands
   bool clearers_part = false;  ///< what clears takes strands of bands that it presses, as it runs
   bool wounds_open = false;    ///< what retracts holds the lips of cut skin apart
@@ -81,8 +82,12 @@ void let_suction_heed_thin_parts(SoftSetup& setup);
 /// (SoftSetup::presses_are_bounded). Nothing changes where there are no solids.
 void let_presses_be_bounded(SoftSetup& setup);
 /// Parts of a tool press solids as one body (SoftSetup::parts_are_one): a shaft is not stopped by
-/// what the thicker head before it has pressed aside. Nothing changes where there are no solids.
+/// what the thicker head before it has pressed aside; they are looked at near the solid. Nothing
+/// changes where there are no solids.
 void let_parts_press_as_one(SoftSetup& setup);
+/// What clears soft solids does so whenever it has gone a hundredth of a millimetre, not in each
+/// step. Nothing changes where nothing clears.
+void let_clearing_go_by_strides(SoftSetup& setup);
 /// A hook tears off what jaws would (let_bridges_tear), and a punch bites strands off bands.
 /// Nothing changes where neither bands nor solids are cut.
 void let_hooks_tear_and_punches_bite(SoftSetup& setup);

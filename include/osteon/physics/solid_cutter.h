@@ -39,6 +39,13 @@ inline constexpr double kClearRoom_m = 0.00005;
 
 /// A tool with a thin part near its tip; none: it has no edge.
 std::optional<SolidCutter> slicing_with(const Tool& tool);
+/// How far an edge goes in within a step, m. `p`: by how much it is pressed, m, and `F` the push of
+/// that, N; `f`: the force that pushes it straight in; `s`: by how much it slides along itself;
+/// `share`: however fast it is drawn it needs so much of f. A drawn edge needs f / (1 + (s / x)^2),
+/// x being how far it goes in (Atkins, Xu and Jeronimidis 2004: pressing and slicing; the share
+/// stands for the friction that limits it there).
+double edge_goes_in(double p, double F, double f, double s, double share);
+
 /// Of each name of a tray ("scalpel_11", "basket_punch:3.4"); none: it does not cut. Fails where
 /// the instruments cannot be read.
 Result<std::vector<std::optional<SolidCutter>>> make_solid_cutters(

@@ -104,16 +104,19 @@ PieceStep move_piece(FallenPiece& piece, const PieceSurroundings& around, double
   at.inverse_J_B = J.inverse();
   const PieceNeighbours near(around, at.c0, shape.reach_m() + kRoomOfStep_m);
   PieceStep did;
-  did.touches = held;
   std::array<PointContact, PieceShape::kMostPoints> contacts{};
-  for (int round = 0; round < kPieceRounds; ++round)
+  bool pushed = false;
+  for (int round = 0; round < kPieceRounds; ++round) {
     for (std::size_t n = 0; n < shape.points_B().size(); ++n) {
       // To and fro: one order alone would turn what rests on a slope a little in each step.
       const std::size_t i = round % 2 == 0 ? n : shape.points_B().size() - 1 - n;
       const Vec3 p_M = shape.points_B()[i] - shape.middle_B();
-      did.touches = push_out(at, p_M, near, contacts[i]) || did.touches;
+      pushed = push_out(at, p_M, near, contacts[i]) || pushed;
       if (contacts[i].pushed_m > 0) hold_back(at, p_M, contacts[i]);
     }
+    if (!pushed) break;  // nor would it be in another round
+  }
+  did.touches = held || pushed;
   if (!is_finite(at.c) || !at.q.coeffs().allFinite()) {
     piece.v_W = piece.w_W = Vec3::Zero();
     return did;

@@ -219,6 +219,16 @@ void let_parts_press_as_one(SoftSetup& setup) {
   tell_hash(setup, "parts press as one");
 }
 
+void let_clearing_go_by_strides(SoftSetup& setup) {
+  const auto clears = [](const std::optional<SolidCutter>& with) {
+    return with && with->way == SolidCutter::Way::kClear;
+  };
+  if (setup.solids.empty() || std::none_of(setup.cutters.begin(), setup.cutters.end(), clears))
+    return;
+  setup.clears_by_strides = true;
+  tell_hash(setup, "clears by strides");
+}
+
 void let_hooks_tear_and_punches_bite(SoftSetup& setup) {
   const auto bites = [](const std::optional<SolidCutter>& cutter) {
     return cutter && cutter->way == SolidCutter::Way::kBite;

@@ -132,6 +132,19 @@ std::optional<SolidCutter> slicing_with(const Tool& tool) {
   return out;
 }
 
+// F (1 - x / p) falls and the force needed rises with x: bisected, it ends at where they are equal.
+double edge_goes_in(double p, double F, double f, double s, double share) {
+  constexpr int kHalvings = 40;
+  if (!(p > 0)) return 0;
+  double lo = 0, hi = p;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double x = 0.5 * (lo + hi);
+    const double needed = f * std::max(share, x * x / (x * x + s * s));
+    (F * (1 - x / p) > needed ? lo : hi) = x;
+  }
+  return lo;
+}
+
 Result<std::vector<std::optional<SolidCutter>>> make_solid_cutters(
     std::span<const std::string> tray) {
   return of_tray<SolidCutter>(tray, cutter_of);

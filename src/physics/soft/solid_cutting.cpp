@@ -15,7 +15,6 @@ constexpr std::size_t kMostNews = 64;
 constexpr double kWallSlack_m = 15e-6;  // as of bone: what cut a hole moves in it
 constexpr double kSharp = 1.0 / 3;      // D: an edge needs so much of the table's force
 constexpr double kLightest_n = 0.05;
-constexpr int kHalvings = 40;
 constexpr double kAcross = 0.7;                         // a blade that lies flat does not cut
 constexpr std::uint32_t kStrokeEnds = 100;              // steps without a cut
 constexpr double kBladesOpen = 0.5, kBladesShut = 0.1;  // of the blades' way
@@ -24,6 +23,13 @@ constexpr double kCrumb_m3 = 0.5e-9;  // less is no piece to tell of
 constexpr double kRipped_m = 0.0007;  // width of what a tear takes: both nodes of each pair
 
 CutGrid cut_grid(const BlockGrid& grid) { return {grid.cell_m, grid.lo, grid.blocks}; }
+
+// The step in which what is left of it last changed; a cut that meets nothing changes nothing.
+std::uint64_t last_change(const CarvedField& field) {
+  std::uint64_t last = 0;
+  for (std::size_t n = 0; n < field.block_count(); ++n) last = std::max(last, field.changed_at(n));
+  return last;
+}
 
 std::uint64_t cells_hash(const std::vector<CutCell>& cells) {
   if (cells.empty()) return 0;
@@ -40,23 +46,17 @@ std::uint64_t cells_hash(const std::vector<CutCell>& cells) {
   return h.value();
 }
 
-// How far an edge goes in within a step. Symbols: p, by how much it is pressed, and F, the push of
-// that; f, the force that pushes it straight in; s, by how much it slides along itself; x, how far
-// it goes in. A drawn edge needs f / (1 + (s / x)^2), and no less than a share of f (Atkins, Xu and
-// Jeronimidis 2004: pressing and slicing; the share stands for the friction that limits it there).
-// F (1 - x / p) falls and the force needed rises with x: bisected, it ends at where they are equal.
-double edge_goes_in(double p, double F, double f, double s, double share) {
-  if (!(p > 0)) return 0;
-  double lo = 0, hi = p;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double x = 0.5 * (lo + hi);
-    const double needed = f * std::max(share, x * x / (x * x + s * s));
-    (F * (1 - x / p) > needed ? lo : hi) = x;
-  }
-  return lo;
-}
-
 }  // namespace
+
+// Whether what clears has gone no farther than its field tells apart since it last did.
+bool is_short(const SolidCutHand& hand, const Pose& X_WB, const Pose& X_WC,
+              const SolidCutter& with) {
+  constexpr double kStride_m = 10e-6;
+  const Pose from_WC = X_WB * hand.X_BC;
+  const Vec3 tip = X_WC.p - from_WC.p;
+  const Vec3 end = X_WC * with.to_T - from_WC * with.to_T;
+  return tip.squaredNorm() < kStride_m * kStride_m && end.squaredNorm() < kStride_m * kStride_m;
+}
 
 // A hand's instrument on the solid that it presses most.
 struct SolidCutting::Stroke {
@@ -140,8 +140,9 @@ void SolidCutting::step(SoftState& state, std::span<const SolidHand> hands, std:
     Solid& solid = solids_[s];
     look_ahead(solid);
     if (step % kShowEvery == 0 && solid.field.step() != solid.told) {
+      if (last_change(solid.field) > solid.told)
+        solid.shown = std::make_shared<const CarveState>(solid.field.save());
       solid.told = solid.field.step();
-      solid.shown = std::make_shared<const CarveState>(solid.field.save());
     }
   }
 }
@@ -262,6 +263,11 @@ void SolidCutting::clear_away(SoftState& state, std::size_t h, const SolidHand& 
   const double most = with.speed_m_per_s * std::min(of.tool->power, 1.0) * step_s_;
   if (!(length > 0) || with.face_T.dot(X_WT.q.conjugate() * way_W) < 0) return;
   const Pose X_WC{from_W + std::min(1.0, most / length) * way_W, X_WT.q};
+  if (goes_on && setup_.clears_by_strides &&
+      is_short(hand, presses_.X_WB(hand.solid), X_WC, with)) {
+    hand.idle = 0;
+    return;
+  }
   Stroke stroke(hand, with, h);
   stroke.near = near;
   for (std::uint32_t s = 0; s < solids_.size(); ++s) {
@@ -380,7 +386,7 @@ void SolidCutting::catch_up(std::uint32_t s) {
 void SolidCutting::sum_gone(std::uint32_t s) {
   Solid& solid = solids_[s];
   if (setup_.solids[s].to_clear || solid.summed == solid.field.step()) return;
-  solid.gone_m3 = removed_m3(s);
+  if (last_change(solid.field) > solid.summed) solid.gone_m3 = removed_m3(s);
   solid.summed = solid.field.step();
 }
 
@@ -388,6 +394,10 @@ void SolidCutting::sum_gone(std::uint32_t s) {
 void SolidCutting::drop_pieces(std::uint32_t s) {
   Solid& solid = solids_[s];
   if (solid.field.step() == solid.looked) return;
+  if (last_change(solid.field) <= solid.looked) {
+    solid.looked = solid.field.step();
+    return;
+  }
   const auto pieces = solid.loose->find(solid.field);
   for (const LoosePiece& piece : pieces) {
     const bool lies = setup_.pieces && !(piece.volume_m3 < kCrumb_m3);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "osteon/collide/field_contact.h"
 
@@ -10,6 +11,7 @@ namespace {
 
 // A part so near may touch before physics has looked again, even at 1 m/s.
 constexpr double kSolidNear_m = 0.003;
+constexpr double kLookedAt_m = 2 * kSolidNear_m;
 // A part that has gone so deep has left the solid behind.
 constexpr double kSolidDeepest_m = 0.02;
 constexpr double kStride_m = 0.0002;  // beyond what a gap allows: thinner than any edge
@@ -39,8 +41,9 @@ bool is_by(const Aabb& box, const RoundBox& part) {
 // surface there allows every o' with n.o' >= n.o - g. Each stride goes towards the shortest such
 // o', by no more than the gap and a little: less than the part's place could pass through an edge
 // by. Ends at the shortest o of one plane, or after so many strides on the way to it.
-CapsuleContact lead_outside(const FieldView& field, const RoundBox& part, Vec3& o) {
-  CapsuleContact c = round_contact(field, shifted_part(part, o));
+// What is farther than `far_m` from the surface is not looked for.
+CapsuleContact lead_outside(const FieldView& field, const RoundBox& part, Vec3& o, double far_m) {
+  CapsuleContact c = round_contact(field, shifted_part(part, o), far_m);
   for (int i = 0; i < kStrides && c.status == LpStatus::kOptimal; ++i) {
     const Vec3& n = c.nhat_AB_A;
     const Vec3 shortest = std::max(0.0, n.dot(o) - c.gap) * n;
@@ -48,7 +51,7 @@ CapsuleContact lead_outside(const FieldView& field, const RoundBox& part, Vec3& 
     const double length = way.norm(), stride = std::max(c.gap, 0.0) + kStride_m;
     if (length < 1e-7) break;
     o += std::min(1.0, stride / length) * way;
-    c = round_contact(field, shifted_part(part, o));
+    c = round_contact(field, shifted_part(part, o), far_m);
   }
   return c;
 }
@@ -117,24 +120,26 @@ std::optional<CapsuleContact> SolidPresses::meet(SolidNear& near, const RoundBox
                                                  const SolidHand& hand, const SolidHandState& state,
                                                  Vec3& o) const {
   const FieldView field = view(near.contact.solid);
+  // Of a long shaft the stretch by the solid alone is looked at, and so the more closely.
+  const double far_m = parts_are_one_ ? kLookedAt_m : std::numeric_limits<double>::infinity();
   CapsuleContact c;
   const auto found = [&] { return c.status == LpStatus::kOptimal; };
   const auto covered_by = [&] {
     return covering(state, near, hand, c.p_axis_A - o - part.rod.radius * c.nhat_AB_A);
   };
   if (near.barred) {
-    c = round_contact(field, part);
+    c = round_contact(field, part, far_m);
     return found() ? std::optional(c) : std::nullopt;
   }
   o = near.outside_B - middle_of(part);
-  c = lead_outside(field, part, o);
+  c = lead_outside(field, part, o, far_m);
   if (!found()) return {};
   const SolidNear* other = parts_are_one_ ? covered_by() : nullptr;
   if (!other) return c;
   // It has gone the way of what covers it, or it is not felt.
   o = other->outside_B - middle(*other, hand);
   near.outside_B = middle_of(part) + o;
-  c = lead_outside(field, part, o);
+  c = lead_outside(field, part, o, far_m);
   if (!found() || covered_by()) return {};
   return c;
 }
