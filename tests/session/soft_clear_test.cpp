@@ -19,6 +19,7 @@ using testing::DrivenHand;
 using testing::kStumpHalf;
 using testing::posed;
 using testing::stump_run;
+using testing::StumpRun;
 
 enum : std::uint32_t { kShaver, kHook, kAblator, kPunch, kDrill };
 
@@ -136,6 +137,40 @@ TEST(SoftClear, ItGoesAsFastAsTheInstrumentClears) {
         std::numbers::pi * kRadius_mm * kRadius_mm * power * kClears_mm_per_s * kWatched_s;
     EXPECT_NEAR(hand.removed_mm3() - before_mm3, passed_mm3, 0.03 * passed_mm3) << power;
   }
+}
+
+// A slow drill takes as much by strides as in every step, with fewer looks at the stump.
+TEST(SoftClear, ByStridesItTakesAsMuch) {
+  StumpRun by_strides;
+  SoftSetup setup = *by_strides.softs;
+  let_clearing_go_by_strides(setup);
+  ASSERT_TRUE(setup.clears_by_strides);
+  by_strides.settings.soft_hash = setup.hash;
+  by_strides.softs = std::make_shared<const SoftSetup>(std::move(setup));
+  const auto drill = [](const StumpRun& run) {
+    Session session = run.session();
+    ClearingHand hand(session);
+    hand.take(kDrill, 1);
+    hand.move({0, 0, 0.012}, 300);
+    hand.move({0, 0, 0.009}, 3000);
+    const auto state = session.save();
+    return std::pair(hand.removed_mm3(), state.world.softs.cut->solids[0].cuts.step);
+  };
+  const auto [every_mm3, every_looks] = drill(stump_run());
+  const auto [strides_mm3, strides_looks] = drill(by_strides);
+  EXPECT_GT(every_mm3, 50);
+  EXPECT_NEAR(strides_mm3, every_mm3, 0.01 * every_mm3);
+  EXPECT_LT(strides_looks, every_looks / 2);
+}
+
+TEST(SoftClear, ByStridesOnlyWhereSomethingClears) {
+  SoftSetup setup = *stump_run().softs;
+  for (auto& with : setup.cutters)
+    if (with && with->way == SolidCutter::Way::kClear) with.reset();
+  const std::uint64_t before = setup.hash;
+  let_clearing_go_by_strides(setup);
+  EXPECT_FALSE(setup.clears_by_strides);
+  EXPECT_EQ(setup.hash, before);
 }
 
 TEST(SoftClear, MownDownItIsClearedAndTheFootprintStays) {
