@@ -39,6 +39,7 @@ inline constexpr double kClearRoom_m = 0.00005;
 
 /// A tool with a thin part near its tip; none: it has no edge.
 std::optional<SolidCutter> slicing_with(const Tool& tool);
+
 /// How far an edge goes in within a step, m. `p`: by how much it is pressed, m, and `F` the push of
 /// that, N; `f`: the force that pushes it straight in; `s`: by how much it slides along itself;
 /// `share`: however fast it is drawn it needs so much of f. A drawn edge needs f / (1 + (s / x)^2),

@@ -46,9 +46,7 @@ std::uint64_t cells_hash(const std::vector<CutCell>& cells) {
   return h.value();
 }
 
-}  // namespace
-
-// Whether what clears has gone no farther than its field tells apart since it last did.
+// Whether what clears has hardly moved since it last did.
 bool is_short(const SolidCutHand& hand, const Pose& X_WB, const Pose& X_WC,
               const SolidCutter& with) {
   constexpr double kStride_m = 10e-6;
@@ -57,6 +55,8 @@ bool is_short(const SolidCutHand& hand, const Pose& X_WB, const Pose& X_WC,
   const Vec3 end = X_WC * with.to_T - from_WC * with.to_T;
   return tip.squaredNorm() < kStride_m * kStride_m && end.squaredNorm() < kStride_m * kStride_m;
 }
+
+}  // namespace
 
 // A hand's instrument on the solid that it presses most.
 struct SolidCutting::Stroke {
