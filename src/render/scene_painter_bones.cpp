@@ -100,7 +100,7 @@ void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, con
   const ChangedCubes& changed = shared_->bones[k].changed;
   if (!changed.empty()) {
     begin(changed_bone);
-    changed.hide(changed_bone);
+    changed.hide(changed_bone, is_clear(look));
     draw_surface(k, snapshot, view, frame);
   }
   begin(bone);

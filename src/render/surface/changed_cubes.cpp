@@ -179,7 +179,7 @@ ShadedMesh ChangedCubes::shaded(const CubeGrid& grid, const SurfaceCube& cube,
   return out;
 }
 
-void ChangedCubes::hide(const Program& program) const {
+void ChangedCubes::hide(const Program& program, bool clear) const {
   glActiveTexture(GL_TEXTURE0 + kUnit);
   glBindTexture(GL_TEXTURE_3D, mask_.get());
   glActiveTexture(GL_TEXTURE0);
@@ -188,7 +188,7 @@ void ChangedCubes::hide(const Program& program) const {
   program.set("u_changed_from",
               Eigen::Vector4f(lo.x(), lo.y(), lo.z(), static_cast<float>(side_m_)));
   program.set("u_changed_grid", to_matrix(X_GM_));
-  program.set("u_changed_overlap", static_cast<float>(overlap_m_));
+  program.set("u_changed_overlap", clear ? 0.0f : static_cast<float>(overlap_m_));
 }
 
 void ChangedCubes::draw() const {

@@ -32,8 +32,10 @@ class ChangedCubes {
   }
   /// Holds all of what is drawn for one cube, in the frame of the surface.
   Aabb box_of(std::uint32_t cube) const;
-  /// Tells a program whose shader knows of it (in use) what to leave out.
-  void hide(const Program& program) const;
+  /// Tells a program whose shader knows of it (in use) what to leave out. The prepared surface goes
+  /// on a little under the new ones, so that no crack shows; `clear`: it ends where they begin, for
+  /// of what is looked through both would be seen there.
+  void hide(const Program& program, bool clear = false) const;
   /// The new surfaces.
   void draw() const;
   void draw(const std::function<bool(const GpuMesh::Chunk&)>& wanted) const;
