@@ -1,4 +1,5 @@
 // Surfaces that change while they are drawn: carved, warmed, pressed.
+#include <algorithm>
 #include <cmath>
 
 #include "gl_fixture.h"
@@ -45,6 +46,38 @@ TEST_F(ChangedSurfaces, ChangedCubesShowInPlaceOfTheSurface) {
   renderer.set_cubes(BoneId{0}, {Vec3::Constant(-0.04), -1, {1, 1, 1}, 0}, {&cube, 1});
   renderer.set_cubes(BoneId{0}, {Vec3::Constant(-0.04), 0.08, {0, 1, 1}, 0}, {&cube, 1});
   EXPECT_EQ(picture(view).rgb, whole.rgb);
+}
+
+// Of bone that is looked through, the surface that was there and the new one are not both seen
+// where one goes over into the other.
+TEST_F(ChangedSurfaces, OfClearBoneNoSeamIsSeenWhereANewSurfaceBegins) {
+  constexpr double kOverlap_m = 0.008;
+  const Case ball_case = one_ball(0.03);
+  Renderer renderer = make_renderer(ball_case);
+  ViewState view = front_view();
+  view.show_proxy = false;
+  view.bones.resize(1);
+  view.bones[0].opacity = 0.4f;
+  const RenderSnapshot snapshot = at_rest(ball_case);
+  // The left half of the ball is new, and is as it was.
+  const CubeGrid grid{Vec3(-0.04, -0.04, -0.04), 0.04, {2, 2, 2}, kOverlap_m};
+  const TriMesh ball = sphere_mesh(0.03);
+  std::vector<SurfaceCube> cubes(4);
+  for (std::uint32_t k = 0; k < cubes.size(); ++k) cubes[k].cube = 2 * k;
+  cubes[0].vertices = ball.vertices;
+  for (const Triangle& t : ball.triangles)
+    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return ball.vertices[v].x() <= 0; }))
+      cubes[0].triangles.push_back(t);
+  renderer.set_cubes(BoneId{0}, grid, cubes);
+  const Image picture = renderer.draw_image(snapshot, view, 200, 200);
+  const Viewport viewport{0, 0, 200, 200};
+  const auto at = [&](double x_m) {
+    const auto place = project(view.camera, viewport, Vec3(x_m, 0, 0));
+    EXPECT_TRUE(place);
+    return brightness(picture, static_cast<int>(place->x), static_cast<int>(place->y));
+  };
+  const int inside = at(-0.5 * kOverlap_m), beyond = at(-1.5 * kOverlap_m);
+  EXPECT_NEAR(inside, beyond, 25);
 }
 
 // A pointer meets what is left of a carved bone.
