@@ -42,8 +42,8 @@ struct SoftSetup {
   bool suction_heeds_thin = false;  ///< it leaves what a thin part would take off it at once
   /// What one hand presses on a solid brings it no nearer to another than the first is deep in it.
   bool presses_are_bounded = false;
-  /// What lies inside another part of a tool touches no solid, and what follows a part that presses
-  /// one comes on its side.
+  /// What lies inside another part of a tool, which presses a solid, does not begin to touch it: it
+  /// is not felt before it has been out of it.
   bool parts_are_one = false;
   bool clears_by_strides = false;  ///< what clears does nothing before it has gone a little way
   bool by_strands = false;         ///< bands are cut and torn strand by strand

@@ -89,74 +89,39 @@ Vec3 SolidPresses::middle(const SolidNear& near, const SolidHand& hand) const {
   return middle_of(in_bone(near.contact.solid, hand, near.contact.part));
 }
 
-// Another part of the tool that presses the same solid, and in which the place of this part lies
-// that would touch: no surface of the tool is there. Null: it is one.
-const SolidNear* SolidPresses::covering(const SolidHandState& state, const SolidNear& near,
-                                        const SolidHand& hand, const Vec3& place_B) const {
-  for (std::uint32_t i = 0; i < state.count; ++i) {
-    const SolidNear& other = state.near[i];
-    if (!presses_too(other, near)) continue;
-    if (outside_of(in_bone(other.contact.solid, hand, other.contact.part), place_B) < -kCovered_m)
-      return &other;
-  }
-  return nullptr;
-}
-
-// Which other part of the tool presses the same solid deepest, and how far it is led outside.
-std::optional<Vec3> SolidPresses::led_by_others(const SolidHandState& state, const SolidNear& near,
-                                                const SolidHand& hand) const {
-  const SolidNear* deepest = nullptr;
-  for (std::uint32_t i = 0; i < state.count; ++i) {
-    const SolidNear& other = state.near[i];
-    if (!presses_too(other, near)) continue;
-    if (!deepest || other.deep_m > deepest->deep_m) deepest = &other;
-  }
-  if (!deepest) return {};
-  return deepest->outside_B - middle(*deepest, hand);
-}
-
-// Where a part meets its solid once it is led outside, by `o`; none: nowhere.
-std::optional<CapsuleContact> SolidPresses::meet(SolidNear& near, const RoundBox& part,
-                                                 const SolidHand& hand, const SolidHandState& state,
-                                                 Vec3& o) const {
-  const FieldView field = view(near.contact.solid);
-  // Of a long shaft the stretch by the solid alone is looked at, and so the more closely.
-  const double far_m = parts_are_one_ ? kLookedAt_m : std::numeric_limits<double>::infinity();
-  CapsuleContact c;
-  const auto found = [&] { return c.status == LpStatus::kOptimal; };
-  const auto covered_by = [&] {
-    return covering(state, near, hand, c.p_axis_A - o - part.rod.radius * c.nhat_AB_A);
-  };
-  if (near.barred) {
-    c = round_contact(field, part, far_m);
-    return found() ? std::optional(c) : std::nullopt;
-  }
-  o = near.outside_B - middle_of(part);
-  c = lead_outside(field, part, o, far_m);
-  if (!found()) return {};
-  const SolidNear* other = parts_are_one_ ? covered_by() : nullptr;
-  if (!other) return c;
-  // It has gone the way of what covers it, or it is not felt.
-  o = other->outside_B - middle(*other, hand);
-  near.outside_B = middle_of(part) + o;
-  c = lead_outside(field, part, o, far_m);
-  if (!found() || covered_by()) return {};
-  return c;
+// Whether the place of a part that would touch lies inside another part of the tool, which presses
+// the same solid another way: no surface of the tool is there, and what the other part has pressed
+// aside is not in its way.
+bool SolidPresses::is_covered(const SolidHandState& state, const SolidNear& near,
+                              const SolidHand& hand, const Vec3& place_B,
+                              const Vec3& nhat_B) const {
+  return std::any_of(state.near.begin(), state.near.begin() + state.count, [&](const auto& other) {
+    return presses_too(other, near) && !(other.contact.nhat_B.dot(nhat_B) > kOneWay) &&
+           outside_of(in_bone(other.contact.solid, hand, other.contact.part), place_B) <
+               -kCovered_m;
+  });
 }
 
 // False: the part has gone.
 bool SolidPresses::keep(SolidNear& near, const SolidHand& hand, const SolidHandState& state) const {
   SolidContact& contact = near.contact;
   if (hand.lifted >> contact.part & 1 || hand.held == contact.solid) return false;
+  const FieldView field = view(contact.solid);
   const RoundBox part = in_bone(contact.solid, hand, contact.part);
-  Vec3 o = Vec3::Zero();
-  const auto met = meet(near, part, hand, state, o);
-  if (!met) return false;
-  const CapsuleContact& c = *met;
+  // Of a long shaft the stretch by the solid alone is looked at, and so the more closely.
+  const double far_m = parts_are_one_ ? kLookedAt_m : std::numeric_limits<double>::infinity();
+  Vec3 o = near.barred ? Vec3(Vec3::Zero()) : Vec3(near.outside_B - middle_of(part));
+  const CapsuleContact c =
+      near.barred ? round_contact(field, part, far_m) : lead_outside(field, part, o, far_m);
+  if (c.status != LpStatus::kOptimal) return false;
   near.deep_m = c.nhat_AB_A.dot(o) - c.gap;
   if (near.deep_m < -kSolidNear_m) return false;
+  const bool begins = near.deep_m > 0 && !near.touching;
   near.touching = near.deep_m > 0;
   near.barred = near.touching && (near.barred || near.deep_m > kSolidDeepest_m);
+  if (begins && parts_are_one_ && !near.barred)
+    near.barred =
+        is_covered(state, near, hand, c.p_axis_A - o - part.rod.radius * c.nhat_AB_A, c.nhat_AB_A);
   near.slid_B = middle_of(part) + o - near.outside_B;
   near.outside_B = middle_of(part) + o;
   near.entered_m = std::clamp(near.entered_m, 0.0, std::max(0.0, near.deep_m));
@@ -169,19 +134,6 @@ bool SolidPresses::keep(SolidNear& near, const SolidHand& hand, const SolidHandS
   else
     contact.along = along_of(there.rod, c.p_axis_A);
   return true;
-}
-
-// What is inside because it follows another part of the tool, which presses, comes on that one's
-// side.
-void SolidPresses::come_behind(const SolidHandState& state, const SolidHand& hand,
-                               const FieldView& field, const RoundBox& part_B,
-                               SolidNear& near) const {
-  const auto o = led_by_others(state, near, hand);
-  if (!o) return;
-  const CapsuleContact c = round_contact(field, shifted_part(part_B, *o), kSolidNear_m);
-  if (c.status != LpStatus::kOptimal || c.gap < 0) return;
-  near.barred = false;
-  near.outside_B += *o;
 }
 
 void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const {
@@ -204,7 +156,6 @@ void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_
     near.contact.part = static_cast<std::uint32_t>(part);
     near.barred = c.gap < 0;
     near.outside_B = middle_of(part_B);
-    if (near.barred && parts_are_one_) come_behind(state, hand, field, part_B, near);
     if (!keep(near, hand, state)) continue;
     near.slid_B.setZero();
     state.near[state.count++] = near;

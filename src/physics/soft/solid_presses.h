@@ -63,15 +63,9 @@ class SolidPresses {
 
  private:
   RoundBox in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const;
-  const SolidNear* covering(const SolidHandState& state, const SolidNear& near,
-                            const SolidHand& hand, const Vec3& place_B) const;
-  std::optional<Vec3> led_by_others(const SolidHandState& state, const SolidNear& near,
-                                    const SolidHand& hand) const;
-  std::optional<CapsuleContact> meet(SolidNear& near, const RoundBox& part, const SolidHand& hand,
-                                     const SolidHandState& state, Vec3& o) const;
+  bool is_covered(const SolidHandState& state, const SolidNear& near, const SolidHand& hand,
+                  const Vec3& place_B, const Vec3& nhat_B) const;
   bool keep(SolidNear& near, const SolidHand& hand, const SolidHandState& state) const;
-  void come_behind(const SolidHandState& state, const SolidHand& hand, const FieldView& field,
-                   const RoundBox& part_B, SolidNear& near) const;
   void seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const;
   std::optional<SoftPushes::One> pull_on(std::size_t solid, const SoftGrip& grip) const;
   double others(const SolidNear& near, const SolidPush& push, const SoftState& all) const;
