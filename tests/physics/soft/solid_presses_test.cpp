@@ -194,7 +194,7 @@ TEST(SolidPresses, AShaftIsNotStoppedByWhatItsHeadHasPressedAside) {
     drill.move({0, 0, 0.009}, 200);
     EXPECT_EQ(drill.up_n(), 0);
     drill.barred = false;
-    drill.move({0, 0, -0.006}, 200);
+    drill.move({0, 0, -0.009}, 200);
     EXPECT_FALSE(drill.barred);
     EXPECT_GT(drill.up_n(), 1);
   }
