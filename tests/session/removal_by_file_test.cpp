@@ -41,7 +41,7 @@ TEST(RemovalByFile, AllThatRemoveCanBeMade) {
   const auto the_case = testing::drilled_block();
   std::vector<std::string> tray;
   for (const Instrument& instrument : *all)
-    if (has_effect(instrument, InstrumentFunction::kRemove)) tray.push_back(instrument.name);
+    if (instrument.removal) tray.push_back(instrument.name);
   EXPECT_EQ(tray.size(), 10u);
   EXPECT_TRUE(can_carve(*the_case, tray));
   EXPECT_FALSE(can_carve(*the_case, std::vector<std::string>{"hook_probe", "rongeur"}));
