@@ -19,7 +19,7 @@ constexpr int kStrides = 24;
 // Parts of one tool that press so near to one another are one push: the deeper counts.
 constexpr double kOnePush_m = 0.004, kOneWay = 0.5;
 // So deep in another part a part has no surface. Ends that share a face are both felt.
-constexpr double kCovered_m = 0.00005;
+constexpr double kInsidePart_m = 0.00005;
 
 RoundBox shifted_part(const RoundBox& part, const Vec3& by) {
   RoundBox out = part;
@@ -98,7 +98,7 @@ bool SolidPresses::is_covered(const SolidHandState& state, const SolidNear& near
   return std::any_of(state.near.begin(), state.near.begin() + state.count, [&](const auto& other) {
     return presses_too(other, near) && !(other.contact.nhat_B.dot(nhat_B) > kOneWay) &&
            outside_of(in_bone(other.contact.solid, hand, other.contact.part), place_B) <
-               -kCovered_m;
+               -kInsidePart_m;
   });
 }
 
