@@ -42,9 +42,9 @@ struct SoftSetup {
   bool suction_heeds_thin = false;  ///< it leaves what a thin part would take off it at once
   /// What one hand presses on a solid brings it no nearer to another than the first is deep in it.
   bool presses_are_bounded = false;
-  /// What lies inside another part of a tool, which presses a solid, does not begin to touch it: it
-  /// is not felt before it has been out of it.
-  bool parts_are_one = false;
+  /// What lies inside another part of a tool, which presses a solid another way, does not begin to
+  /// touch it: it is not felt before it has been out of it.
+  bool covered_parts_wait = false;
   bool clears_by_strides = false;  ///< what clears does nothing before it has gone a little way
   bool by_strands = false;         ///< bands are cut and torn strand by strand
   bool bridges_tear = false;       ///< what jaws pull off a solid tears where it is narrow
@@ -81,10 +81,10 @@ void let_suction_heed_thin_parts(SoftSetup& setup);
 /// Two hands that press a solid towards one another raise each other's forces no further than that
 /// (SoftSetup::presses_are_bounded). Nothing changes where there are no solids.
 void let_presses_be_bounded(SoftSetup& setup);
-/// Parts of a tool press solids as one body (SoftSetup::parts_are_one): a shaft is not stopped by
-/// what the thicker head before it has pressed aside; they are looked at near the solid. Nothing
-/// changes where there are no solids.
-void let_parts_press_as_one(SoftSetup& setup);
+/// What one part of a tool covers does not begin to touch a solid then that this part presses
+/// another way: a shaft is not stopped by what the thicker head before it has pressed aside. And
+/// parts are looked at near the solid alone. Nothing changes where there are no solids.
+void let_covered_parts_wait(SoftSetup& setup);
 /// What clears soft solids does so whenever it has gone a hundredth of a millimetre, not in each
 /// step. Nothing changes where nothing clears.
 void let_clearing_go_by_strides(SoftSetup& setup);

@@ -213,10 +213,10 @@ void let_presses_be_bounded(SoftSetup& setup) {
   tell_hash(setup, "presses are bounded");
 }
 
-void let_parts_press_as_one(SoftSetup& setup) {
+void let_covered_parts_wait(SoftSetup& setup) {
   if (setup.solids.empty()) return;
-  setup.parts_are_one = true;
-  tell_hash(setup, "parts press as one");
+  setup.covered_parts_wait = true;
+  tell_hash(setup, "covered parts wait");
 }
 
 void let_clearing_go_by_strides(SoftSetup& setup) {

@@ -109,7 +109,7 @@ bool SolidPresses::keep(SolidNear& near, const SolidHand& hand, const SolidHandS
   const FieldView field = view(contact.solid);
   const RoundBox part = in_bone(contact.solid, hand, contact.part);
   // Of a long shaft the stretch by the solid alone is looked at, and so the more closely.
-  const double far_m = parts_are_one_ ? kLookedAt_m : std::numeric_limits<double>::infinity();
+  const double far_m = covered_wait_ ? kLookedAt_m : std::numeric_limits<double>::infinity();
   Vec3 o = near.barred ? Vec3(Vec3::Zero()) : Vec3(near.outside_B - middle_of(part));
   const CapsuleContact c =
       near.barred ? round_contact(field, part, far_m) : lead_outside(field, part, o, far_m);
@@ -119,7 +119,7 @@ bool SolidPresses::keep(SolidNear& near, const SolidHand& hand, const SolidHandS
   const bool begins = near.deep_m > 0 && !near.touching;
   near.touching = near.deep_m > 0;
   near.barred = near.touching && (near.barred || near.deep_m > kSolidDeepest_m);
-  if (begins && parts_are_one_ && !near.barred)
+  if (begins && covered_wait_ && !near.barred)
     near.barred =
         is_covered(state, near, hand, c.p_axis_A - o - part.rod.radius * c.nhat_AB_A, c.nhat_AB_A);
   near.slid_B = middle_of(part) + o - near.outside_B;
@@ -164,7 +164,7 @@ void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_
 
 void SolidPresses::follow(SolidHandState& state, const SolidHand& hand,
                           const SoftState& all) const {
-  const SolidHandState before = state;
+  const SolidHandState before = state;  // each is covered by the others as they were, in any order
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < before.count; ++i) {
     SolidNear near = before.near[i];

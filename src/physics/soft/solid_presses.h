@@ -36,7 +36,7 @@ class SolidPresses {
       : solids_(setup.solids),
         coupling_n_per_m_(coupling_n_per_m),
         bounded_(setup.presses_are_bounded),
-        parts_are_one_(setup.parts_are_one) {}
+        covered_wait_(setup.covered_parts_wait) {}
 
   /// What cuts have left of a solid: its holes, and what it is like now. Nulls: it is whole.
   void set_cut(std::size_t solid, const CutField* holes, std::shared_ptr<const PressedSolid> body) {
@@ -74,7 +74,7 @@ class SolidPresses {
 
   const std::vector<SoftSolid>& solids_;
   double coupling_n_per_m_;
-  bool bounded_, parts_are_one_;
+  bool bounded_, covered_wait_;
   std::array<Pose, kMaxSolids> X_WB_{};
   std::array<const CutField*, kMaxSolids> holes_{};
   std::array<std::shared_ptr<const PressedSolid>, kMaxSolids> bodies_{};

@@ -132,11 +132,11 @@ struct DrillOverBlock {
   ToolState tool;
   std::vector<RoundBox> parts;
 
-  explicit DrillOverBlock(bool as_one) {
+  explicit DrillOverBlock(bool wait) {
     auto solids = make_soft_solids(*the_case, std::vector<std::string>{"menisci"}, kBlock_n_per_m);
     EXPECT_TRUE(solids);
     if (solids) add_solids(setup, std::move(*solids));
-    if (as_one) let_parts_press_as_one(setup);
+    if (wait) let_covered_parts_wait(setup);
     bones = rest_snapshot(*the_case);
     parts.push_back(round_box(Capsule{{0, 0, 0.022}, {0, 0, 0.2}, kShaft_m}));
     parts.push_back(round_box(Capsule{{0, 0, 0.0022}, {0, 0, 0.022}, kHead_m}));
@@ -175,16 +175,16 @@ struct DrillOverBlock {
 // The head of a drill presses the block's surface aside; the shaft behind it goes on over what the
 // head has pressed down, and is not stopped by the block's side as if the block still stood there.
 TEST(SolidPresses, AShaftIsNotStoppedByWhatItsHeadHasPressedAside) {
-  for (const bool as_one : {false, true}) {
-    SCOPED_TRACE(as_one);
-    DrillOverBlock drill(as_one);
+  for (const bool wait : {false, true}) {
+    SCOPED_TRACE(wait);
+    DrillOverBlock drill(wait);
     drill.move({0, 0, -0.005}, 100);
     const double head_n = drill.up_n();
     ASSERT_GT(head_n, 1);
     EXPECT_LT(drill.along_n, 0.05 * head_n);
     drill.move({0, -0.016, 0}, 800);
-    EXPECT_EQ(drill.barred, as_one);
-    if (!as_one) {
+    EXPECT_EQ(drill.barred, wait);
+    if (!wait) {
       EXPECT_GT(drill.along_n, 2 * head_n);  // recordings from before it was so
       continue;
     }
@@ -200,10 +200,10 @@ TEST(SolidPresses, AShaftIsNotStoppedByWhatItsHeadHasPressedAside) {
   }
 }
 
-TEST(SolidPresses, PartsPressAsOneOnlyWhereThereAreSolids) {
+TEST(SolidPresses, CoveredPartsWaitOnlyWhereThereAreSolids) {
   SoftSetup setup;
-  let_parts_press_as_one(setup);
-  EXPECT_FALSE(setup.parts_are_one);
+  let_covered_parts_wait(setup);
+  EXPECT_FALSE(setup.covered_parts_wait);
   EXPECT_EQ(setup.hash, SoftSetup().hash);
 }
 
