@@ -46,7 +46,7 @@ class SoftHalf {
   SoftHalf(std::unique_ptr<SoftWorld> world, std::vector<FeltBands*> hands);
 
   const SoftWorld& world() const { return *world_; }
-  void bare_skin() { world_->bare_skin(); }
+  void bare_skin(SkinBare bares) { world_->bare_skin(bares); }
   /// Steps, and tells the hands what has changed for them. A hand that has not listened for so long
   /// that there is no room would miss what changes: nothing is stepped after that, as with cuts.
   void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,

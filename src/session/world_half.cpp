@@ -326,7 +326,7 @@ void WorldHalf::obey(const Command& command) {
   else if (command.kind == CommandKind::kTension)
     pull_tail(command.value);
   else if (command.kind == CommandKind::kBareSkin) {
-    if (softs_) softs_->bare_skin();
+    if (softs_) softs_->bare_skin(command.value >= 0.5 ? SkinBare::kAll : SkinBare::kPortals);
   } else if (examines(command))
     return;
   else if (command.kind == CommandKind::kMark && mark < kMaxMarks)

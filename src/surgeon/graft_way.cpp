@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hand_way.h"
+#include "incision_way.h"
 #include "osteon/scene/graft_bench.h"
 #include "osteon/surgeon/graft_surgeon.h"
 
@@ -51,9 +52,9 @@ constexpr std::array<std::string_view, 6> kGraftFaults{"amputated_tendon", "unfl
                                                        "long_loop",        "slack_graft",
                                                        "muscle_left",      "few_stitches"};
 // Of a whole reconstruction.
-constexpr std::array<std::string_view, 7> kFaultsInKnee{
-    "amputated_tendon", "muscle_left", "few_stitches", "slack_graft",
-    "short_loop",       "long_loop",   "wide_tunnel"};
+constexpr std::array<std::string_view, 9> kFaultsInKnee{
+    "incision_aside", "incision_deep", "amputated_tendon", "muscle_left", "few_stitches",
+    "slack_graft",    "short_loop",    "long_loop",        "wide_tunnel"};
 
 // As few strands as make it thick enough; of those that are long enough.
 GraftHabits graft_habits(const GraftBenchPlan& plan, const std::string& fault) {
@@ -301,7 +302,8 @@ Result<double> drilled_for_graft(const Case& the_case, const Skill& skill) {
 }
 
 Result<ProbePath> plan_graft_stage(const Case& the_case, const Skill& skill, double begin_s,
-                                   const Pose& from, const std::string& held) {
+                                   const Pose& from, const std::string& held,
+                                   const std::optional<Pose>& X_WSite) {
   const auto plan = bench_in(the_case);
   if (!plan) return tl::unexpected(plan.error());
   const std::string fault = fault_of(skill);
@@ -309,6 +311,7 @@ Result<ProbePath> plan_graft_stage(const Case& the_case, const Skill& skill, dou
   HandWay way(held, from, pace_of(skill));
   way.stay(begin_s);
   const RoundJoint knee = round_knee(the_case);
+  if (X_WSite) open_skin(the_case, *X_WSite, knee, fault, way);
   change_round(way, knee, "scalpel_15", plan->graft_from_W + kComes, kUpright);
   make_graft(way, *plan, habits);
   stretch(way, *plan);

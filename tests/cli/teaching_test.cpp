@@ -171,8 +171,8 @@ TEST_F(Teaching, WhoDrillsBadlyFailsWithThatError) {
 
 TEST_F(Teaching, AReconstructionIsExplainedAndWantsAKneeWithItsLandmarks) {
   const TeachJson info = json_of("scenario info acl --json");
-  EXPECT_EQ(info["stages"].size(), 20u);
-  EXPECT_EQ(info["errors"].size(), 36u);
+  EXPECT_EQ(info["stages"].size(), 21u);
+  EXPECT_EQ(info["errors"].size(), 38u);
   EXPECT_EQ(run_osteon("run acl --case builtin:wrist --no-store").exit_code, 2);
   EXPECT_EQ(run_osteon("run acl --seed 1 --surgeon bad:nothing --no-store").exit_code, 2);
 }

@@ -17,6 +17,7 @@ using testing::kSkinScope;
 using testing::kSkinTrocar;
 using testing::skin_run;
 using testing::SkinHandAt;
+using testing::SkinRun;
 
 void go_through(SkinHandAt& hand, double x, double y) {
   hand.take(kSkinTrocar, {x, y, 0.010});
@@ -127,6 +128,59 @@ TEST(BareSkin, ARestorePointFromBeforeThePortalHasTheSkinAgainUntilItIsMadeAnew)
   EXPECT_LT(session.tool_state().p_portal_W.norm(), 1e-4);
 }
 
+// One patch for a portal, and one beside it that is there for none.
+const SkinRun& run_with_site() {
+  static const SkinRun run(0, false, 0, {"skin:portal_al", "skin:aside"});
+  return run;
+}
+
+TEST(BareSkin, SkinThatIsThereForNoPortalIsFeltUntilAllIsBare) {
+  Session session = run_with_site().session();
+  SkinHandAt hand(session);
+  hand.tick();
+  hand.tick({CommandKind::kBareSkin, 0});
+  go_through(hand, 0, 0);
+  EXPECT_EQ(pressed_by_ball(hand, 0.004, 0.003), 0);
+  EXPECT_GT(pressed_by_ball(hand, 0.020, 0), 1);
+  hand.tick({CommandKind::kMark, 0});
+  hand.tick({CommandKind::kBareSkin, 1});
+  EXPECT_EQ(pressed_by_ball(hand, 0.020, 0), 0);
+  EXPECT_EQ(session.save().world.softs.skin->bares, SkinBare::kAll);
+  const auto back = state_from_bytes(to_bytes(session.save()));
+  ASSERT_TRUE(back) << back.error().message();
+  EXPECT_EQ(back->world.softs.skin->bares, SkinBare::kAll);
+  // A restore point from before that has it again.
+  hand.tick({CommandKind::kRestore, 0});
+  hand.rest(100);
+  EXPECT_GT(pressed_by_ball(hand, 0.020, 0), 1);
+  EXPECT_EQ(pressed_by_ball(hand, 0.004, 0.003), 0);
+}
+
+TEST(BareSkin, AllIsBareWithoutAnyPortal) {
+  Session session = run_with_site().session();
+  SkinHandAt hand(session);
+  hand.tick();
+  EXPECT_GT(pressed_by_ball(hand, 0, 0), 1);
+  hand.tick({CommandKind::kBareSkin, 1});
+  EXPECT_EQ(pressed_by_ball(hand, 0, 0), 0);
+  EXPECT_EQ(pressed_by_ball(hand, 0.020, 0), 0);
+}
+
+TEST(BareSkin, WithMoreThanOnePatchARecordingRepeats) {
+  const auto& run = run_with_site();
+  Session session = run.session();
+  Recording recording = begin_recording(run);
+  SkinHandAt hand(session);
+  hand.into = &recording;
+  hand.tick();
+  go_through(hand, 0, 0);
+  hand.tick({CommandKind::kBareSkin, 0});
+  (void)pressed_by_ball(hand, 0.020, 0);
+  hand.tick({CommandKind::kBareSkin, 1});
+  (void)pressed_by_ball(hand, 0.020, 0);
+  expect_same_replays(recording, run, session, {0.0, 1.9, 2.4});
+}
+
 TEST(BareSkin, ARecordingRepeatsFromTheStartAndTheMiddle) {
   const auto& run = skin_run();
   Session session = run.session();
@@ -143,7 +197,7 @@ TEST(BareSkin, ARecordingRepeatsFromTheStartAndTheMiddle) {
   expect_same_replays(recording, run, session, {0.0, 1.0, 2.1, 2.9});
   const auto back = state_from_bytes(to_bytes(session.save()));
   ASSERT_TRUE(back) << back.error().message();
-  EXPECT_TRUE(back->world.softs.skin->bares);
+  EXPECT_EQ(back->world.softs.skin->bares, SkinBare::kPortals);
 }
 
 }  // namespace

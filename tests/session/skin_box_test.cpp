@@ -165,7 +165,7 @@ TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   with_portal.world.softs.skin = std::make_shared<const SkinState>(std::move(skin));
   const std::size_t portals = first_other(bytes, with_portal);
   skin = *state.world.softs.skin;
-  skin.bares = true;
+  skin.bares = SkinBare::kPortals;
   SessionState bares = state;
   bares.world.softs.skin = std::make_shared<const SkinState>(std::move(skin));
   const std::size_t bare = first_other(bytes, bares);

@@ -108,7 +108,8 @@ struct SkinRun {
   Tray tray;
   std::shared_ptr<const SoftSetup> softs;
 
-  explicit SkinRun(double limb_m = 0, bool portals = false, double tendon_m = 0)
+  explicit SkinRun(double limb_m = 0, bool portals = false, double tendon_m = 0,
+                   std::vector<std::string> patches = {"skin"})
       : the_case(skin_case(limb_m, tendon_m)) {
     std::vector<SkinTool> uses;
     for (Tool& tool : skin_tools()) {
@@ -116,7 +117,7 @@ struct SkinRun {
       uses.push_back(skin_tool(tool, tool.name == "trocar"));
       tray.push_back(std::make_shared<const Tool>(std::move(tool)));
     }
-    settings.soft = {"skin"};
+    settings.soft = std::move(patches);
     settings.haptic.max_force_n = 60;
     settings.haptic.max_slew_n_per_s = 1e5;
     settings.force_limit_n = 5;
@@ -126,6 +127,7 @@ struct SkinRun {
     EXPECT_TRUE(made) << made.error().message();
     SoftSetup setup;
     if (made) add_skins(setup, std::move(*made), std::move(uses));
+    let_openings_be_told(setup);
     settings.soft_hash = setup.hash;
     softs = std::make_shared<const SoftSetup>(std::move(setup));
   }
@@ -182,6 +184,12 @@ struct SkinHandAt {
     for (const Event& event : events)
       if (event.kind == kind) return &event;
     return nullptr;
+  }
+  const Event* last(EventKind kind) const {
+    const Event* found = nullptr;
+    for (const Event& event : events)
+      if (event.kind == kind) found = &event;
+    return found;
   }
   /// Force on the tool when it rests at `where`, come from above.
   double felt_at(const Vec3& where) {

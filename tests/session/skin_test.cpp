@@ -4,6 +4,7 @@
 
 #include "count_allocations.h"
 #include "osteon/base/random.h"
+#include "osteon/base/turn.h"
 #include "osteon/physics/skin_state.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
@@ -170,6 +171,44 @@ TEST(Skin, ABladeThatIsPressedOpensASlitAlongItsStroke) {
   const double after = hand.felt_at({0.001, 0.0015, -0.003});
   EXPECT_LT(after, 0.9 * before);
   EXPECT_NEAR(after / solved_n(cuts, {0.001, 0.0015}, kBallTip_m, 0.003), 1, 0.06);
+}
+
+// What is open adds up over strokes; how far aside and how deep is each stroke's own. Under
+// negative x a tendon lies 4 mm deep, under the rest nothing near.
+TEST(Skin, SkinThatIsThereForNoPortalTellsHowMuchOfItIsOpen) {
+  const SkinRun run(0, false, 0.004, {"skin:beside"});
+  Session session = run.session();
+  SkinHandAt hand(session);
+  const auto cut = [&](double x, double from, double to, double deep_m) {
+    hand.take(kSkinBlade, {x, from, 0.010});
+    hand.q = turn_between(Vec3::UnitX(), Vec3::UnitY());
+    hand.move({x, from, -deep_m}, 200);
+    hand.move({x, to, -deep_m}, 400);
+    hand.move({x, to, 0.010}, 200);
+  };
+  cut(0.013, -0.010, 0.002, 0.004);
+  const Event* first = hand.first(kSkinOpened);
+  ASSERT_NE(first, nullptr);
+  const auto one = first->values;
+  EXPECT_NEAR(one[0], 12, 1.3);
+  EXPECT_NEAR(one[1], 3, 0.7);
+  EXPECT_EQ(one[2], 0);
+  cut(-0.005, -0.004, 0.004, 0.0075);
+  ASSERT_EQ(hand.count(kSkinOpened), 2u);
+  const auto two = hand.last(kSkinOpened)->values;
+  EXPECT_NEAR(two[0], one[0] + 8, 1.3);
+  EXPECT_NEAR(two[1], 15, 0.7);
+  EXPECT_GT(two[2], 1);
+  EXPECT_LT(two[2], 3.5);
+  EXPECT_EQ(hand.count(kSkinCutEnd), 2u);
+}
+
+TEST(Skin, APortalsSkinTellsNoOpening) {
+  Session session = skin_run().session();
+  SkinHandAt hand(session);
+  cut_along(hand, {-0.006, -0.002, 0}, {0.006, 0.002, 0});
+  EXPECT_EQ(hand.count(kSkinCutEnd), 1u);
+  EXPECT_EQ(hand.count(kSkinOpened), 0u);
 }
 
 TEST(Skin, ATouchThatIsTooLightAndABladeThatLiesFlatCutNothing) {

@@ -61,6 +61,8 @@ struct SkinPatch {
   double edge_n = 1;                        ///< push at which an edge goes in
 };
 std::uint64_t hash_of(std::span<const SkinPatch> patches);
+/// Whether it is there for a portal to be made in it.
+bool is_for_portal(const SkinPatch& patch);
 
 /// What an instrument of the tray does to skin.
 struct SkinTool {
@@ -89,6 +91,10 @@ bool names_skin(std::string_view name);
 /// patches. None for names that mean no skin, or that the case does not have.
 std::vector<Portal> portals_to_make(const Case& the_case, std::span<const std::string> names,
                                     const PortalSkin& skin);
+
+/// The frame of such a patch, over bones at rest: z out of the skin, y along the limb (`up_W`).
+/// `name`: "skin:PLACE". Fails as make_skin_patches.
+Result<Pose> patch_frame(const Case& the_case, const std::string& name, const Vec3& up_W);
 
 /// Lays patches on the case's skin. `names`: "skin:PLACE" for the landmark or attachment PLACE;
 /// "skin": at portal_al, portal_am and pes_anserinus, as far as the case has them. `up_W`: along

@@ -80,11 +80,18 @@ struct SkinHand {
   BandTouch touch;
 };
 
+/// What of the skin is felt no more.
+enum class SkinBare : std::uint64_t {
+  kNone = 0,
+  kPortals = 1,  ///< patches of portals, from when on each of them has one
+  kAll = 2
+};
+
 /// All that happens to patches of skin: a value.
 struct SkinState {
   std::vector<SkinPatchState> patches;
   std::array<std::array<SkinHand, kMaxSkins>, kMaxHands> hands{};
-  bool bares = false;  ///< no patch is felt from when on each has a portal
+  SkinBare bares = SkinBare::kNone;
 };
 
 }  // namespace osteon

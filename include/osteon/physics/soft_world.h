@@ -15,6 +15,8 @@
 
 namespace osteon {
 
+enum class SkinBare : std::uint64_t;
+
 /// How a band was pulled in the last step.
 struct BandReadout {
   double tension_n = 0;                     ///< by bones and hands together
@@ -93,7 +95,7 @@ class SoftWorld {
   bool ground_parts() const;   ///< in the last step some of it was cut off or has torn
   bool ground_is_cut() const;  ///< or was cut by an instrument
   /// No patch of skin is felt from when on each has a portal; those are open to every shaft.
-  void bare_skin();
+  void bare_skin(SkinBare bares);
   /// No tool is near it: nothing is done for it.
   bool is_asleep(std::size_t solid) const;
   /// What presses the solids now, and what has bent the bands in the last step: their shape follows

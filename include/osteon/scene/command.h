@@ -36,8 +36,8 @@ enum class CommandKind : std::uint32_t {
   kKneeNumber = 19,  ///< value: the next of give_numbers; with the last of them it can be examined
   kLachman = 20,     ///< value: pull on the tibia to the front, N; ends the other test
   kPivot = 21,       ///< value: share of the pivot shift's load, 0 to 1; ends the other test
-  /// value: 0; patches of skin are felt no more once each has a portal, which stays open and lets
-  /// any shaft in as one of the case does
+  /// value 0: the patches of skin about portals are felt no more once each has one, which stays
+  /// open and lets any shaft in as one of the case does; 1: no patch is felt any more
   kBareSkin = 22
 };
 

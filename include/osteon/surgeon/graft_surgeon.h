@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,10 +24,13 @@ Result<ProbePath> plan_graft(const Case& the_case, const Skill& skill);
 /// "bad:wide_tunnel": wider. Fails where the case has no bench.
 Result<double> drilled_for_graft(const Case& the_case, const Skill& skill);
 /// The same work within a reconstruction, before the tunnels are drilled: from where the hand with
-/// what it holds is, `begin_s` later, up to the board, which pulls on, and back. `skill`
-/// "bad:NAME": amputated_tendon, muscle_left, few_stitches, slack_graft.
+/// what it holds is, `begin_s` later, up to the board, which pulls on, and back. `X_WSite`: of the
+/// skin over the tendons' insertion, z out of it and y along the limb; it is cut open first. None:
+/// nobody cuts it. `skill` "bad:NAME": incision_aside, incision_deep, amputated_tendon,
+/// muscle_left, few_stitches, slack_graft.
 Result<ProbePath> plan_graft_stage(const Case& the_case, const Skill& skill, double begin_s,
-                                   const Pose& from, const std::string& held);
+                                   const Pose& from, const std::string& held,
+                                   const std::optional<Pose>& X_WSite = std::nullopt);
 /// What is left once the femur's channel and socket are measured: the button's loop, by them.
 /// `skill` "bad:NAME": short_loop, long_loop.
 Result<ProbePath> plan_loop_stage(const Case& the_case, const Skill& skill, double channel_m,

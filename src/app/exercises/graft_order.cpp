@@ -33,7 +33,18 @@ bool is_at_bench(const ScenarioStage& stage) {
   });
 }
 
-void leave_out_bench_stages(Scenario& scenario) { std::erase_if(scenario.stages, is_at_bench); }
+// With them the skin is left whole through which the tendons would come.
+void leave_out_bench_stages(Scenario& scenario) {
+  const auto opens_skin = [](const ScenarioStage& stage) {
+    return std::any_of(stage.goals.begin(), stage.goals.end(),
+                       [](const Rule& goal) { return goal.kind == "skin_opened"; });
+  };
+  if (std::erase_if(scenario.stages, opens_skin) > 0)
+    std::erase_if(scenario.soft, [](const std::string& name) {
+      return name.starts_with("skin:") && !name.starts_with("skin:portal_");
+    });
+  std::erase_if(scenario.stages, is_at_bench);
+}
 
 void GraftOrder::see(const std::optional<PlacingPlan>& wanted, const BoneSnapshot& bones) {
   const GraftPlacingState& there = bones.placing;

@@ -23,6 +23,13 @@ std::optional<std::uint32_t> stage_bent_after_portals(const ScenarioPlan& plan) 
   return std::nullopt;
 }
 
+std::optional<std::uint32_t> stage_after_incision(const ScenarioPlan& plan) {
+  const auto& stages = plan.scenario.stages;
+  for (std::size_t s = stages.size(); s > 0; --s)
+    if (has_goal_of(stages[s - 1], "skin_opened")) return static_cast<std::uint32_t>(s);
+  return std::nullopt;
+}
+
 // All from the first of them until the knee is bent after the last one.
 void leave_out_puncture_stages(Scenario& scenario) {
   auto& stages = scenario.stages;
@@ -34,19 +41,26 @@ void leave_out_puncture_stages(Scenario& scenario) {
   });
   if (bent != stages.end()) end = bent + 1;
   if (first != stages.end()) stages.erase(first, end);
-  std::erase_if(scenario.soft, [](const std::string& name) { return name.starts_with("skin"); });
+  std::erase_if(scenario.soft, [](const std::string& name) {
+    return name == "skin" || name.starts_with("skin:portal_");
+  });
 }
 
 void SkinOrder::see(const ScenarioPlan& plan, const ScenarioState& state, std::uint32_t epoch) {
-  if (std::exchange(epoch_, epoch) != epoch) told_ = false;
-  if (told_) return;
-  const auto from = stage_bent_after_portals(plan);
-  told_ = waiting_ = from && state.stage >= *from;
+  if (std::exchange(epoch_, epoch) != epoch) told_ = 0;
+  const auto has_come = [&](std::optional<std::uint32_t> stage) {
+    return stage && state.stage >= *stage;
+  };
+  const int bare = has_come(stage_after_incision(plan))       ? 2
+                   : has_come(stage_bent_after_portals(plan)) ? 1
+                                                              : 0;
+  waiting_ = waiting_ || bare > told_;
+  told_ = std::max(told_, bare);
 }
 
 std::optional<Command> SkinOrder::take() {
   if (!std::exchange(waiting_, false)) return std::nullopt;
-  return Command{CommandKind::kBareSkin, 0};
+  return Command{CommandKind::kBareSkin, told_ == 2 ? 1.0 : 0.0};
 }
 
 }  // namespace osteon

@@ -16,9 +16,13 @@ std::optional<std::uint32_t> stage_bent_after_portals(const ScenarioPlan& plan);
 /// portals that were made before.
 void leave_out_puncture_stages(Scenario& scenario);
 
-/// Tells a session that skin is felt no more once its portals are made, by a command that is
-/// recorded: when the stage begins in which the knee is bent after that, for skin is laid on one
-/// bend alone.
+/// The first stage after those in which skin is opened elsewhere than for a portal; none: in no
+/// stage it is.
+std::optional<std::uint32_t> stage_after_incision(const ScenarioPlan& plan);
+
+/// Tells a session that skin is felt no more, by commands that are recorded: that about portals
+/// when the stage begins in which the knee is bent after they were made, for skin is laid on one
+/// bend alone; the rest when the stages are over in which it is opened.
 class SkinOrder {
  public:
   /// `epoch`: of the bones. After a restore point it is told again: skin may be felt again.
@@ -27,7 +31,8 @@ class SkinOrder {
   std::optional<Command> take();
 
  private:
-  bool told_ = false, waiting_ = false;
+  int told_ = 0;  ///< 1: of portals, 2: of all
+  bool waiting_ = false;
   std::uint32_t epoch_ = 0;
 };
 

@@ -20,6 +20,7 @@ namespace {
 constexpr const char* kSkin = "skin";
 constexpr const char* kSkinWhere = "--soft";
 constexpr std::string_view kSkinAt = "skin:";
+constexpr const char* kForPortal = "portal_";
 constexpr std::array kUsualPlaces{"portal_al", "portal_am", "pes_anserinus", "portal_3_4",
                                   "portal_6r"};
 // Own defaults: room for a portal, and for an incision over the tendons' insertion.
@@ -44,7 +45,7 @@ std::optional<PlaceAsked> place_named(const Case& the_case, std::string_view nam
   for (std::uint32_t i = 0; i < the_case.landmarks.size(); ++i) {
     const Landmark& landmark = the_case.landmarks[i];
     if (landmark.name == name)
-      return PlaceAsked{landmark.name, landmark.p_W, name.starts_with("portal_"), i};
+      return PlaceAsked{landmark.name, landmark.p_W, name.starts_with(kForPortal), i};
   }
   for (const SoftPart& part : the_case.softs)
     for (const Attachment& end : part.attachments)
@@ -216,6 +217,10 @@ Result<std::vector<PatchRoom>> rooms_of(const Case& the_case, std::uint32_t soft
 
 bool names_skin(std::string_view name) { return name == kSkin || name.starts_with(kSkinAt); }
 
+bool is_for_portal(const SkinPatch& patch) {
+  return std::string_view(patch.name).starts_with(std::string(kSkinAt) + kForPortal);
+}
+
 std::uint64_t hash_of(std::span<const SkinPatch> patches) {
   Hasher h;
   for (const SkinPatch& patch : patches) {
@@ -294,6 +299,12 @@ void let_wounds_be_held_open(SoftSetup& setup) {
   tell_hash(setup, "wounds are held open");
 }
 
+void let_openings_be_told(SoftSetup& setup) {
+  if (std::all_of(setup.skins.begin(), setup.skins.end(), is_for_portal)) return;
+  setup.tells_openings = true;
+  tell_hash(setup, "openings are told");
+}
+
 std::vector<Portal> portals_to_make(const Case& the_case, std::span<const std::string> names,
                                     const PortalSkin& skin) {
   std::vector<std::string> skins;
@@ -308,6 +319,14 @@ std::vector<Portal> portals_to_make(const Case& the_case, std::span<const std::s
          room_to_make(place.name, place.landmark, static_cast<std::uint32_t>(out.size()), skin))
       out.push_back(std::move(portal));
   return out;
+}
+
+Result<Pose> patch_frame(const Case& the_case, const std::string& name, const Vec3& up_W) {
+  const auto places = places_asked(the_case, std::span(&name, 1));
+  if (!places) return tl::unexpected(places.error());
+  const auto soft = skin_of(the_case);
+  if (!soft) return fail("the case has no skin", kSkinWhere, "Give another case");
+  return sheet_frame(the_case.softs[*soft].mesh_W, places->front().near_W, up_W, 0, kSkinReach_m);
 }
 
 Result<std::vector<SkinPatch>> make_skin_patches(const Case& the_case,

@@ -67,7 +67,7 @@ const SkinTool& SkinWorld::use_of(std::uint32_t instrument) const {
 void SkinWorld::clear() {
   for (std::size_t s = 0; s < patches_.size(); ++s) put(s, {});
   hands_ = {};
-  bares_ = false;
+  bares_ = SkinBare::kNone;
 }
 
 std::optional<SkinWorld::Place> SkinWorld::deepest_box(std::size_t s, const RoundBox& box_S) const {
@@ -309,7 +309,18 @@ void SkinWorld::end_stroke_of(const At& at) {
   tell_event(at, kSkinCutEnd,
              {1e3 * hand.stroke_m, 1e3 * hand.deepest_m,
               static_cast<double>(step_ - hand.since_step) * step_s_});
+  tell_opening(at);
   changed(at.patch);
+}
+
+void SkinWorld::tell_opening(const At& at) {
+  const SkinPatch& patch = setup_.skins[at.patch];
+  if (!setup_.tells_openings || is_for_portal(patch)) return;
+  const SkinHand& hand = *at.state;
+  const double past_m = hand.deepest_m - patch.cover.at(hand.p).height_m;
+  tell_event(
+      at, kSkinOpened,
+      {1e3 * patches_[at.patch].cut_m, 1e3 * std::abs(hand.p.x()), 1e3 * std::max(0.0, past_m)});
 }
 
 // Elastic until it breaks or a slit lets it in; then the hole's rim holds the shaft, and the fat
@@ -501,16 +512,19 @@ void SkinWorld::tell_event(const At& at, EventKind kind, const std::array<double
   events_.push_back(event);
 }
 
-bool SkinWorld::is_bare() const {
-  return bares_ && std::all_of(patches_.begin(), patches_.end(),
-                               [](const Patch& patch) { return patch.made_count > 0; });
+bool SkinWorld::is_bare(std::size_t s) const {
+  if (bares_ != SkinBare::kPortals) return bares_ == SkinBare::kAll;
+  if (!is_for_portal(setup_.skins[s])) return false;
+  for (std::size_t i = 0; i < patches_.size(); ++i)
+    if (is_for_portal(setup_.skins[i]) && patches_[i].made_count == 0) return false;
+  return true;
 }
 
 void SkinWorld::step(std::span<const SkinToolNow> hands, const BoneSnapshot& bones) {
   events_.clear();
   step_ = bones.step;
-  const bool bare = is_bare();
   for (std::size_t s = 0; s < patches_.size(); ++s) {
+    const bool bare = is_bare(s);
     const Pose& X_WB = bones.bones[setup_.skins[s].bone.index].X_WB;
     const bool lies = is_finite(X_WB);
     if (lies) patches_[s].X_WS = X_WB * setup_.skins[s].X_BS;
@@ -545,7 +559,7 @@ MadePortal SkinWorld::made_portal(std::size_t s, std::uint32_t portal) const {
   MadePortal out;
   out.open = true;
   out.pierced = patches_[s].made[portal].pierced;
-  out.bare = is_bare();
+  out.bare = is_bare(s);
   out.bone = patch.bone.index;
   out.p_B = patch.X_BS * Vec3(p.x(), p.y(), here.height_m);
   out.nhat_B = patch.X_BS.rotate(Vec3(-here.slope.x(), -here.slope.y(), 1).normalized());

@@ -56,8 +56,8 @@ class SkinWorld {
   /// As restore, but no tool is near, and the stiffness follows in the next steps.
   void go_back(const SkinState& state);
   void clear();
-  /// From when on each patch has a portal none is felt; portals stay, see MadePortal::bare.
-  void bare() { bares_ = true; }
+  /// Portals of patches that are felt no more stay, see MadePortal::bare.
+  void bare(SkinBare bares) { bares_ = bares; }
 
  private:
   static constexpr std::uint64_t kSkinStill = 0;  ///< next_hash: nothing is being solved
@@ -101,7 +101,8 @@ class SkinWorld {
   void let_go(const At& at);
   void make_hole(const At& at, double radius_m);
   void follow_portal(const At& at);
-  bool is_bare() const;
+  bool is_bare(std::size_t patch) const;
+  void tell_opening(const At& at);
   double slit_at(const At& at) const;
   void make_portal(const At& at);
   std::optional<std::uint32_t> opening_at(const At& at) const;
@@ -130,7 +131,7 @@ class SkinWorld {
   double coupling_n_per_m_, limit_n_, step_s_;
   std::uint32_t first_made_;
   std::uint64_t step_ = 0;
-  bool bares_ = false;  ///< once each patch has a portal
+  SkinBare bares_ = SkinBare::kNone;
   std::vector<Patch> patches_;
   std::array<std::array<SkinHand, kMaxSkins>, kMaxHands> hands_{};
   std::array<SkinReadout, kMaxSkins> readouts_{};

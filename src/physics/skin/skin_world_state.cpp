@@ -92,7 +92,9 @@ std::uint64_t SkinWorld::hash() const {
   }
   for (const auto& hands : hands_)
     for (std::size_t s = 0; s < patches_.size(); ++s) add_to(h, hands[s]);
-  if (bares_) h.add(bares_);
+  // As one byte of truth, as before there was more than one kind of it.
+  if (bares_ != SkinBare::kNone) h.add(true);
+  if (bares_ == SkinBare::kAll) h.add(true);
   return h.value();
 }
 
@@ -182,6 +184,7 @@ void SkinWorld::go_back(const SkinState& state) {
     mine.made = state.patches[s].made;
     changed(s);
   }
+  if (bares_ == SkinBare::kAll) bares_ = state.bares;
   hands_ = {};
   for (Patch& mine : patches_) mine.pushes.count = 0;
   events_.clear();

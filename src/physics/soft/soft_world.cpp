@@ -514,8 +514,8 @@ void SoftWorld::step_skins(std::span<const Hand> hands, const BoneSnapshot& bone
 
 SkinReadout SoftWorld::skin_readout(std::size_t patch) const { return skins_->readout(patch); }
 
-void SoftWorld::bare_skin() {
-  if (skins_) skins_->bare();
+void SoftWorld::bare_skin(SkinBare bares) {
+  if (skins_) skins_->bare(bares);
 }
 
 BandContacts SoftWorld::contacts(std::size_t hand) const {

@@ -13,6 +13,7 @@
 #include "rules/placing_rules.h"
 #include "rules/portal_rules.h"
 #include "rules/ring_rules.h"
+#include "rules/skin_rules.h"
 #include "rules/stump_rules.h"
 #include "rules/tunnel_rules.h"
 #include "rules/way_rules.h"
@@ -342,6 +343,7 @@ const std::vector<RuleKind>& rule_table() {
     all.insert(all.end(), placing_rule_table().begin(), placing_rule_table().end());
     all.insert(all.end(), stump_rule_table().begin(), stump_rule_table().end());
     all.insert(all.end(), portal_rule_table().begin(), portal_rule_table().end());
+    all.insert(all.end(), skin_rule_table().begin(), skin_rule_table().end());
     all.insert(all.end(), exam_rule_table().begin(), exam_rule_table().end());
     return all;
   }();
@@ -373,6 +375,7 @@ std::optional<RuleHit> step_rule(const PlannedRule& rule, const Event& event, do
   if (step_placing_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
   if (step_stump_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
   if (step_portal_rule(rule, event, place, tick_s, state, tunnel_hit)) return tunnel_hit;
+  if (step_skin_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
   if (step_exam_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
   for (const RuleRow& row : rule_rows()) {
     if (row.kind.name != rule.rule.kind) continue;

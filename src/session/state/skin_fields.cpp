@@ -117,7 +117,11 @@ void field(A& a, std::shared_ptr<const SkinState>& skin) {
     }
     if (!a.ok) return;
   }
-  if (since(a, kBareSkin)) field(a, state.bares);
+  if (since(a, kBareSkin)) {
+    auto bares = static_cast<std::uint64_t>(state.bares);
+    number(a, bares, static_cast<std::uint64_t>(SkinBare::kAll));
+    state.bares = static_cast<SkinBare>(bares);
+  }
   for (auto& hands : state.hands)
     for (std::size_t s = 0; s < patches; ++s) field(a, hands[s]);
   if constexpr (A::kReads) skin = std::make_shared<const SkinState>(std::move(state));

@@ -17,14 +17,16 @@ std::vector<Command> all_of(GraftOrder& order) {
 
 TEST(GraftOrder, StagesAtTheBenchAreLeftOutWhereTheGraftIsMade) {
   Scenario scenario;
-  for (const char* kind :
-       {"seen", "tendons_stripped", "graft_sized", "socket_drilled", "loop_hung", "thread_laid"}) {
+  for (const char* kind : {"seen", "skin_opened", "tendons_stripped", "graft_sized",
+                           "socket_drilled", "loop_hung", "thread_laid"}) {
     scenario.stages.emplace_back();
     scenario.stages.back().name = kind;
     scenario.stages.back().goals.emplace_back();
     scenario.stages.back().goals.back().kind = kind;
   }
+  scenario.soft = {"menisci", "skin:portal_al", "skin:pes_anserinus"};
   leave_out_bench_stages(scenario);
+  EXPECT_EQ(scenario.soft, (std::vector<std::string>{"menisci", "skin:portal_al"}));
   ASSERT_EQ(scenario.stages.size(), 3u);
   EXPECT_EQ(scenario.stages[0].name, "seen");
   EXPECT_EQ(scenario.stages[1].name, "socket_drilled");

@@ -63,15 +63,45 @@ TEST(SkinOrder, SaysItAgainAfterARestorePoint) {
   EXPECT_FALSE(order.take());
 }
 
+TEST(SkinOrder, SkinThatIsOpenedLaterIsFeltUntilThatStageIsOver) {
+  const ScenarioPlan plan =
+      plan_of({"portal_made", "knee_bent", "skin_opened", "tendons_stripped"});
+  EXPECT_EQ(stage_after_incision(plan), 3u);
+  EXPECT_FALSE(stage_after_incision(plan_of({"portal_made", "knee_bent"})));
+  SkinOrder order;
+  ScenarioState state;
+  state.stage = 1;
+  order.see(plan, state, 0);
+  EXPECT_EQ(order.take()->value, 0);
+  state.stage = 2;
+  order.see(plan, state, 0);
+  EXPECT_FALSE(order.take());
+  state.stage = 3;
+  order.see(plan, state, 0);
+  const auto all = order.take();
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->kind, CommandKind::kBareSkin);
+  EXPECT_EQ(all->value, 1);
+  order.see(plan, state, 0);
+  EXPECT_FALSE(order.take());
+  // Back before the incision, and on again.
+  state.stage = 2;
+  order.see(plan, state, 1);
+  EXPECT_EQ(order.take()->value, 0);
+  state.stage = 3;
+  order.see(plan, state, 1);
+  EXPECT_EQ(order.take()->value, 1);
+}
+
 TEST(SkinOrder, StagesOfPortalsThatWereMadeBeforeAreLeftOut) {
   Scenario scenario =
       plan_of({"portal_made", "through", "portal_made", "knee_bent", "seen", "knee_bent"}).scenario;
-  scenario.soft = {"stumps", "skin:portal_al", "skin:portal_am"};
+  scenario.soft = {"stumps", "skin:portal_al", "skin:portal_am", "skin:pes_anserinus"};
   leave_out_puncture_stages(scenario);
   ASSERT_EQ(scenario.stages.size(), 2u);
   EXPECT_EQ(scenario.stages[0].name, "seen");
   EXPECT_EQ(scenario.stages[1].name, "knee_bent");
-  EXPECT_EQ(scenario.soft, std::vector<std::string>{"stumps"});
+  EXPECT_EQ(scenario.soft, (std::vector<std::string>{"stumps", "skin:pes_anserinus"}));
   leave_out_puncture_stages(scenario);
   EXPECT_EQ(scenario.stages.size(), 2u);
   Scenario looks = plan_of({"portal_made", "seen", "knee_bent", "felt"}).scenario;

@@ -10,6 +10,8 @@
 #include "commands/teaching/played_hand.h"
 #include "exercises/graft_order.h"
 #include "exercises/skin_order.h"
+#include "osteon/physics/skin_setup.h"
+#include "osteon/render/anatomical_view.h"
 #include "osteon/scene/tool_set.h"
 #include "osteon/surgeon/acl_surgeon.h"
 #include "osteon/surgeon/exam_surgeon.h"
@@ -122,6 +124,25 @@ HandPart waiting_part(const std::string& held, const Pose& at, double until_s,
   return {std::move(path), std::move(orders)};
 }
 
+// Where an incision is made; none: nobody makes one.
+std::optional<Pose> site_of_incision(const ScenarioPlan& plan, const Case& the_case) {
+  if (!has_goal(plan, "skin_opened")) return std::nullopt;
+  for (const std::string& name : plan.scenario.soft) {
+    if (!name.starts_with("skin:") || name.starts_with("skin:portal_")) continue;
+    if (const auto X_WS = patch_frame(the_case, name, anatomical_frame(the_case).distal_W))
+      return *X_WS;
+  }
+  return std::nullopt;
+}
+
+// Without what he gave away nothing is drilled.
+bool ends_at_the_bench(const Skill& skill) {
+  constexpr std::array<std::string_view, 3> kEnds{"amputated_tendon", "incision_aside",
+                                                  "incision_deep"};
+  return skill.name.starts_with("bad:") &&
+         std::find(kEnds.begin(), kEnds.end(), skill.name.substr(4)) != kEnds.end();
+}
+
 // The third hand: a graft as far as it is made before the tunnels, then those and the rest.
 struct ThirdHand {
   std::vector<std::unique_ptr<HandPlayer>> first;
@@ -129,18 +150,17 @@ struct ThirdHand {
   ScriptedHand* maker = nullptr;  ///< null: he makes no graft
 };
 Result<ThirdHand> plan_third_hand(const Case& the_case, const PlannedHand& hand, const Skill& skill,
-                                  AclWays& ways) {
+                                  const std::optional<Pose>& X_WSite, AclWays& ways) {
   ThirdHand out;
   auto drills = std::make_unique<AclDriller>(std::move(ways.drilling), skill);
   if (ways.after_graft) {
-    auto way =
-        plan_graft_stage(the_case, skill, ways.third_begin_s, drills->start(), hand.instrument);
+    auto way = plan_graft_stage(the_case, skill, ways.third_begin_s, drills->start(),
+                                hand.instrument, X_WSite);
     if (!way) return tl::unexpected(way.error());
     auto maker = std::make_unique<ScriptedHand>(HandPart{std::move(*way), std::move(ways.exam)});
     out.maker = maker.get();
     out.first.push_back(std::move(maker));
-    // Without a graft nothing is drilled for it.
-    if (skill.name == "bad:amputated_tendon") return out;
+    if (ends_at_the_bench(skill)) return out;
   }
   if (!ways.after_graft && !ways.exam.empty())
     out.first.push_back(std::make_unique<ScriptedHand>(
@@ -258,7 +278,8 @@ Result<std::vector<std::string>> plan_reconstruction(
   PartsHand* whole = nullptr;
   for (const PlannedHand& hand : hands) {
     if (hand.pin && tools->drills) {
-      auto planned = plan_third_hand(the_case, hand, run.skill, *ways);
+      auto planned =
+          plan_third_hand(the_case, hand, run.skill, site_of_incision(plan, the_case), *ways);
       if (!planned) return tl::unexpected(planned.error());
       third = std::move(*planned);
       auto parts = third.driller ? later_parts(plan, hand, the_case, run.skill, work)
