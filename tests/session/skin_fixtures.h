@@ -123,7 +123,7 @@ struct SkinRun {
     settings.force_limit_n = 5;
     settings.portals.clear();
     if (portals) settings.portals = {"AL"};
-    auto made = make_skin_patches(*the_case, settings.soft, Vec3::UnitY(), {});
+    auto made = make_skin_patches(*the_case, settings.soft, {Vec3::UnitY()}, {});
     EXPECT_TRUE(made) << made.error().message();
     SoftSetup setup;
     if (made) add_skins(setup, std::move(*made), std::move(uses));

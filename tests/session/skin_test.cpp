@@ -53,19 +53,19 @@ void cut_along(SkinHandAt& hand, const Vec3& from, const Vec3& to, double deep_m
 TEST(Skin, AskedForWhereThereIsNoneItSaysWhatThereIs) {
   const auto the_case = testing::skin_case();
   const auto ask = [&](const Case& of, const std::string& name) {
-    return make_skin_patches(of, std::vector<std::string>{name}, Vec3::UnitY(), {});
+    return make_skin_patches(of, std::vector<std::string>{name}, {Vec3::UnitY()}, {});
   };
   const auto wrong = ask(*the_case, "skin:nowhere");
   ASSERT_FALSE(wrong);
   EXPECT_NE(wrong.error().message().find("skin:portal_al"), std::string::npos);
   EXPECT_FALSE(ask(*testing::two_box_case(), "skin"));
   const std::vector<std::string> both{"skin:portal_al", "skin:beside"};
-  const auto over = make_skin_patches(*the_case, both, Vec3::UnitY(), {});
+  const auto over = make_skin_patches(*the_case, both, {Vec3::UnitY()}, {});
   ASSERT_FALSE(over);
   EXPECT_NE(over.error().message().find("overlap"), std::string::npos);
-  EXPECT_FALSE(make_skin_patches(*the_case, std::vector<std::string>{"skin"}, Vec3::UnitZ(), {}));
+  EXPECT_FALSE(make_skin_patches(*the_case, std::vector<std::string>{"skin"}, {Vec3::UnitZ()}, {}));
   EXPECT_FALSE(
-      make_skin_patches(*the_case, std::vector<std::string>{"skin"}, Vec3::UnitY(), {0, 25}));
+      make_skin_patches(*the_case, std::vector<std::string>{"skin"}, {Vec3::UnitY()}, {0, 25}));
   EXPECT_TRUE(names_skin("skin:portal_al"));
   EXPECT_FALSE(names_skin("menisci"));
 }
@@ -75,7 +75,7 @@ TEST(Skin, AskedForWhereThereIsNoneItSaysWhatThereIs) {
 TEST(Skin, PatchesNearEachOtherAreSmaller) {
   const auto the_case = testing::skin_case();
   const auto made = [&](const std::vector<std::string>& names) {
-    const auto patches = make_skin_patches(*the_case, names, Vec3::UnitY(), {});
+    const auto patches = make_skin_patches(*the_case, names, {Vec3::UnitY()}, {});
     EXPECT_TRUE(patches) << (patches ? "" : patches.error().message());
     std::vector<double> widths;
     if (patches)

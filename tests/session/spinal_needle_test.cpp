@@ -51,7 +51,7 @@ struct NeedleRun {
     settings.soft = {"skin:portal_am"};
     settings.haptic.max_force_n = 60;
     settings.haptic.max_slew_n_per_s = 1e5;
-    auto patches = make_skin_patches(*the_case, settings.soft, Vec3::UnitX(), {});
+    auto patches = make_skin_patches(*the_case, settings.soft, {Vec3::UnitX()}, {});
     auto uses = make_skin_tools(settings.tray);
     EXPECT_TRUE(patches && uses);
     SoftSetup setup;

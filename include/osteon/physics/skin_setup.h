@@ -92,16 +92,22 @@ bool names_skin(std::string_view name);
 std::vector<Portal> portals_to_make(const Case& the_case, std::span<const std::string> names,
                                     const PortalSkin& skin);
 
-/// The frame of such a patch, over bones at rest: z out of the skin, y along the limb (`up_W`).
-/// `name`: "skin:PLACE". Fails as make_skin_patches.
-Result<Pose> patch_frame(const Case& the_case, const std::string& name, const Vec3& up_W);
+/// What y of a patch's frame is along, as far as that lies across the way out of the skin.
+struct SkinUps {
+  Vec3 up_W = Vec3::UnitY();  ///< along the limb as a whole
+  bool along_bones = true;    ///< along a long bone under a place that is no portal's, if it can be
+};
+
+/// The frame of such a patch, over bones at rest: z out of the skin, y as `ups` say. `name`:
+/// "skin:PLACE". Fails as make_skin_patches.
+Result<Pose> patch_frame(const Case& the_case, const std::string& name, const SkinUps& ups);
 
 /// Lays patches on the case's skin. `names`: "skin:PLACE" for the landmark or attachment PLACE;
-/// "skin": at portal_al, portal_am and pes_anserinus, as far as the case has them. `up_W`: along
-/// the limb. Fails, and says what there is, where the case has no such place, or where the skin
-/// there is too bent for a patch, or patches overlap.
+/// "skin": at portal_al, portal_am and pes_anserinus, as far as the case has them. Fails, and says
+/// what there is, where the case has no such place, or where the skin there is too bent for a
+/// patch, or patches overlap.
 Result<std::vector<SkinPatch>> make_skin_patches(const Case& the_case,
                                                  std::span<const std::string> names,
-                                                 const Vec3& up_W, const SkinNumbers& numbers);
+                                                 const SkinUps& ups, const SkinNumbers& numbers);
 
 }  // namespace osteon

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mass_properties.h"
 #include "osteon/base/hash.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/physics/soft_setup.h"
@@ -118,6 +119,36 @@ BoneId bone_of_patch(const Case& the_case, std::uint32_t landmark, const Vec3& p
   return bone_under(the_case, p_W);
 }
 
+// Along a bone that is at least twice as long as it is thick, to the side of `up_W`; else that.
+Vec3 along_bone(const Case& the_case, BoneId id, const Vec3& up_W) {
+  const Bone& bone = the_case.bone(id);
+  const std::vector<Vec3>& at_B = bone.mesh.vertices;
+  if (at_B.empty()) return up_W;
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : at_B) middle += p;
+  middle /= static_cast<double>(at_B.size());
+  Mat3 spread = Mat3::Zero();
+  for (const Vec3& p : at_B) spread += (p - middle) * (p - middle).transpose();
+  Vec3 values;
+  const Mat3 axes = principal_axes(spread, values);
+  int longest = 0;
+  values.maxCoeff(&longest);
+  const double thick = std::max(values[(longest + 1) % 3], values[(longest + 2) % 3]);
+  if (!(values[longest] >= 4 * thick)) return up_W;
+  const Vec3 along_W = bone.X_WB.rotate(axes.col(longest));
+  return along_W.dot(up_W) < 0 ? Vec3(-along_W) : along_W;
+}
+
+Result<Pose> frame_at(const Case& the_case, std::uint32_t soft, const PlaceAsked& place,
+                      const SkinUps& ups) {
+  const bool by_bone = ups.along_bones && !place.is_portal && !the_case.bones.empty();
+  const Vec3 up_W =
+      by_bone
+          ? along_bone(the_case, bone_of_patch(the_case, place.landmark, place.near_W), ups.up_W)
+          : ups.up_W;
+  return sheet_frame(the_case.softs[soft].mesh_W, place.near_W, up_W, 0, kSkinReach_m);
+}
+
 Result<SkinRelief> relief_of(const TriMesh& skin_W, const Pose& X_WS, double width_m,
                              double height_m) {
   const auto nx = static_cast<std::size_t>(std::lround(width_m / kReliefCell_m)) + 1;
@@ -195,11 +226,10 @@ Result<SkinPatch> patch_at(const Case& the_case, std::uint32_t soft, const Place
 }
 
 Result<std::vector<PatchRoom>> rooms_of(const Case& the_case, std::uint32_t soft,
-                                        std::span<const PlaceAsked> places, const Vec3& up_W) {
+                                        std::span<const PlaceAsked> places, const SkinUps& ups) {
   std::vector<PatchRoom> out;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto X_WS =
-        sheet_frame(the_case.softs[soft].mesh_W, places[i].near_W, up_W, 0, kSkinReach_m);
+    const auto X_WS = frame_at(the_case, soft, places[i], ups);
     if (!X_WS) return tl::unexpected(X_WS.error());
     PatchRoom room{*X_WS};
     for (std::size_t j = 0; j < i; ++j) {
@@ -321,17 +351,17 @@ std::vector<Portal> portals_to_make(const Case& the_case, std::span<const std::s
   return out;
 }
 
-Result<Pose> patch_frame(const Case& the_case, const std::string& name, const Vec3& up_W) {
+Result<Pose> patch_frame(const Case& the_case, const std::string& name, const SkinUps& ups) {
   const auto places = places_asked(the_case, std::span(&name, 1));
   if (!places) return tl::unexpected(places.error());
   const auto soft = skin_of(the_case);
   if (!soft) return fail("the case has no skin", kSkinWhere, "Give another case");
-  return sheet_frame(the_case.softs[*soft].mesh_W, places->front().near_W, up_W, 0, kSkinReach_m);
+  return frame_at(the_case, *soft, places->front(), ups);
 }
 
 Result<std::vector<SkinPatch>> make_skin_patches(const Case& the_case,
                                                  std::span<const std::string> names,
-                                                 const Vec3& up_W, const SkinNumbers& numbers) {
+                                                 const SkinUps& ups, const SkinNumbers& numbers) {
   const auto places = places_asked(the_case, names);
   if (!places) return tl::unexpected(places.error());
   const auto soft = skin_of(the_case);
@@ -340,7 +370,7 @@ Result<std::vector<SkinPatch>> make_skin_patches(const Case& the_case,
   if (!(numbers.stiffness_n_per_m > 0 && numbers.cutting_n > 0))
     return fail("skin has no stiffness, or nothing cuts it", kSkinWhere,
                 "Correct the tissue table");
-  const auto rooms = rooms_of(the_case, *soft, *places, up_W);
+  const auto rooms = rooms_of(the_case, *soft, *places, ups);
   if (!rooms) return tl::unexpected(rooms.error());
   std::vector<SkinPatch> out;
   for (std::size_t i = 0; i < places->size(); ++i) {

@@ -43,6 +43,8 @@ inline Case grown_knee(std::uint64_t seed, double flexion_deg,
     soft.kind = from.kind;
     soft.mesh_W = std::move(from.mesh_W);
     soft.bones = from.bones;
+    for (const GeneratedAttachment& end : from.attachments)
+      soft.attachments.push_back({end.name, end.bone, end.p_W});
     def.softs.push_back(std::move(soft));
   }
   for (const GeneratedLandmark& from : grown->anatomy.landmarks)

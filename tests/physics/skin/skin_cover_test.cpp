@@ -127,7 +127,7 @@ struct Palpation {
 
   explicit Palpation(const Case& of) : knee(of) {
     const std::vector<std::string> names{"skin:portal_al", "skin:portal_am"};
-    auto made = make_skin_patches(knee, names, Vec3::UnitX(), {});
+    auto made = make_skin_patches(knee, names, {Vec3::UnitX()}, {});
     EXPECT_TRUE(made) << (made ? "" : made.error().message());
     if (made) add_skins(setup, std::move(*made), {});
     bones.count = static_cast<std::uint32_t>(knee.bones.size());

@@ -129,7 +129,7 @@ std::optional<Pose> site_of_incision(const ScenarioPlan& plan, const Case& the_c
   if (!has_goal(plan, "skin_opened")) return std::nullopt;
   for (const std::string& name : plan.scenario.soft) {
     if (!name.starts_with("skin:") || name.starts_with("skin:portal_")) continue;
-    if (const auto X_WS = patch_frame(the_case, name, anatomical_frame(the_case).distal_W))
+    if (const auto X_WS = patch_frame(the_case, name, {anatomical_frame(the_case).distal_W}))
       return *X_WS;
   }
   return std::nullopt;

@@ -208,11 +208,11 @@ Result<void> add_solids_named(const Case& the_case, const SoftNames& names,
 
 Result<void> add_skin(const Case& the_case, std::span<const std::string> names,
                       const TissueTable& tissues, std::span<const std::string> tray,
-                      SoftSetup& setup) {
+                      bool along_bones, SoftSetup& setup) {
   if (names.empty()) return {};
   const auto skin = tissue_named(tissues, "skin");
   if (!skin) return tl::unexpected(skin.error());
-  auto made = make_skin_patches(the_case, names, anatomical_frame(the_case).distal_W,
+  auto made = make_skin_patches(the_case, names, {anatomical_frame(the_case).distal_W, along_bones},
                                 {(*skin)->stiffness_n_per_m.value, (*skin)->cutting_n.value});
   if (!made) return tl::unexpected(made.error());
   auto tools = make_skin_tools(tray);
@@ -222,11 +222,9 @@ Result<void> add_skin(const Case& the_case, std::span<const std::string> names,
   return {};
 }
 
-}  // namespace
-
-Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
-                                                   const SessionSettings& settings) {
-  if (settings.soft.empty()) return std::shared_ptr<const SoftSetup>();
+// `along_bones`: so patches of skin lie that are no portal's; false: as they lay once.
+Result<SoftSetup> softs_as(const Case& the_case, const SessionSettings& settings,
+                           bool along_bones) {
   const auto tissues = load_default_tissues();
   if (!tissues) return tl::unexpected(tissues.error());
   const SoftNames names = sorted_names(the_case, settings.soft);
@@ -235,7 +233,8 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
     return tl::unexpected(done.error());
   if (auto done = add_solids_named(the_case, names, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());
-  if (auto done = add_skin(the_case, names.skin, *tissues, settings.tray, setup); !done)
+  if (auto done = add_skin(the_case, names.skin, *tissues, settings.tray, along_bones, setup);
+      !done)
     return tl::unexpected(done.error());
   auto grippers = make_soft_grippers(settings.tray);
   if (!grippers) return tl::unexpected(grippers.error());
@@ -257,7 +256,19 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
         let_presses_be_bounded, let_clearers_part_bands, let_suction_heed_thin_parts,
         let_covered_parts_wait, let_clearing_go_by_strides, let_openings_be_told})
     if (lacks_something()) let(setup);
-  if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)
+  return setup;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
+                                                   const SessionSettings& settings) {
+  if (settings.soft.empty()) return std::shared_ptr<const SoftSetup>();
+  auto setup = softs_as(the_case, settings, true);
+  if (setup && settings.soft_hash != 0 && settings.soft_hash != setup->hash)
+    setup = softs_as(the_case, settings, false);
+  if (!setup) return tl::unexpected(setup.error());
+  if (settings.soft_hash != 0 && settings.soft_hash != setup->hash)
     return fail("the soft parts of the case are not those of the recording", "recording",
                 "Replay it with the version of Osteon that made it");
   return std::make_shared<const SoftSetup>(std::move(setup));
