@@ -271,7 +271,7 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
   if (settings.soft_hash != 0 && settings.soft_hash != setup->hash)
     return fail("the soft parts of the case are not those of the recording", "recording",
                 "Replay it with the version of Osteon that made it");
-  return std::make_shared<const SoftSetup>(std::move(setup));
+  return std::make_shared<const SoftSetup>(std::move(*setup));
 }
 
 std::vector<std::string> softs_named(const std::string& text) {
