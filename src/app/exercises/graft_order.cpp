@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "exercises/skin_order.h"
+
 namespace osteon {
 namespace {
 
@@ -35,10 +37,6 @@ bool is_at_bench(const ScenarioStage& stage) {
 
 // With them the skin is left whole through which the tendons would come.
 void leave_out_bench_stages(Scenario& scenario) {
-  const auto opens_skin = [](const ScenarioStage& stage) {
-    return std::any_of(stage.goals.begin(), stage.goals.end(),
-                       [](const Rule& goal) { return goal.kind == "skin_opened"; });
-  };
   if (std::erase_if(scenario.stages, opens_skin) > 0)
     std::erase_if(scenario.soft, [](const std::string& name) {
       return name.starts_with("skin:") && !name.starts_with("skin:portal_");

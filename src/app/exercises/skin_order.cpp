@@ -23,10 +23,12 @@ std::optional<std::uint32_t> stage_bent_after_portals(const ScenarioPlan& plan) 
   return std::nullopt;
 }
 
+bool opens_skin(const ScenarioStage& stage) { return has_goal_of(stage, "skin_opened"); }
+
 std::optional<std::uint32_t> stage_after_incision(const ScenarioPlan& plan) {
   const auto& stages = plan.scenario.stages;
   for (std::size_t s = stages.size(); s > 0; --s)
-    if (has_goal_of(stages[s - 1], "skin_opened")) return static_cast<std::uint32_t>(s);
+    if (opens_skin(stages[s - 1])) return static_cast<std::uint32_t>(s);
   return std::nullopt;
 }
 

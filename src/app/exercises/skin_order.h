@@ -16,6 +16,9 @@ std::optional<std::uint32_t> stage_bent_after_portals(const ScenarioPlan& plan);
 /// portals that were made before.
 void leave_out_puncture_stages(Scenario& scenario);
 
+/// Whether skin is to be opened in a stage, elsewhere than for a portal.
+bool opens_skin(const ScenarioStage& stage);
+
 /// The first stage after those in which skin is opened elsewhere than for a portal; none: in no
 /// stage it is.
 std::optional<std::uint32_t> stage_after_incision(const ScenarioPlan& plan);

@@ -80,6 +80,17 @@ Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspe
   return look_from(from, view_from, points_on(bench), aspect);
 }
 
+Camera skin_camera(const Camera& from, const Pose& X_WS) {
+  constexpr double kAway_m = 0.22;
+  Camera camera = from;
+  camera.orthographic = false;
+  camera.target_W = X_WS.p;
+  camera.distance_m = kAway_m;
+  camera.q_WC =
+      look_rotation(X_WS.rotate(Vec3(0, -0.4, 1).normalized()), X_WS.rotate(Vec3::UnitY()));
+  return camera;
+}
+
 bool is_at_bench(const GraftBenchPlan& bench, const Vec3& tip_W) {
   constexpr double kNear_m = 0.1;
   Aabb box;

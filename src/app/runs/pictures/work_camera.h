@@ -17,6 +17,9 @@ Camera side_camera(const Camera& from, std::span<const Vec3> portals_W,
 /// A look from above at the table of a bench and at the bands before it, as who works there sees
 /// it.
 Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspect);
+/// A look at skin that is to be cut, from near and a little aslant. `X_WS`: z out of it, y upwards
+/// in the picture.
+Camera skin_camera(const Camera& from, const Pose& X_WS);
 /// Whether a tip is so near to what lies on a bench that a hand works there.
 bool is_at_bench(const GraftBenchPlan& bench, const Vec3& tip_W);
 /// Where a hand begins that comes to the bench.

@@ -39,6 +39,23 @@ TEST(WorkCamera, AllThatMattersIsInThePictureHandsToTheLeftOfTheWork) {
     }
 }
 
+TEST(WorkCamera, SkinIsSeenFromNearItsAxisUpwards) {
+  const Pose X_WS{Vec3(0.04, -0.03, 0.02),
+                  Quat(Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()))};
+  const Camera camera = skin_camera({}, X_WS);
+  const Pose X_CW = camera.X_WC().inverse();
+  const double half_tan = std::tan(0.5 * camera.vertical_fov_rad);
+  for (const Vec3& p_S : {Vec3(0.02, 0.028, 0), Vec3(-0.02, 0.028, 0), Vec3(-0.02, -0.028, 0)}) {
+    const Vec3 p_C = X_CW * (X_WS * p_S);
+    ASSERT_LT(p_C.z(), 0);
+    EXPECT_LT(std::max(std::abs(p_C.x()), std::abs(p_C.y())), 0.7 * half_tan * -p_C.z());
+  }
+  const Vec3 up_C = X_CW.rotate(X_WS.rotate(Vec3::UnitY()));
+  EXPECT_NEAR(up_C.x(), 0, 1e-9);
+  EXPECT_GT(up_C.y(), 0.8);
+  EXPECT_GT((X_WS.inverse() * camera.eye_W()).z(), 0.1);
+}
+
 TEST(WorkCamera, ABenchIsSeenFromAboveAndFromWhereTheOperatorIs) {
   const auto bench = find_graft_bench(*testing::bench_case());
   ASSERT_TRUE(bench);

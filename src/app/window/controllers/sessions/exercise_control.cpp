@@ -439,7 +439,7 @@ void ExerciseControl::begin_to_work(const std::vector<PlannedHand>& hands) {
   // A cut of 10 mm is small in a picture of the whole leg. To a bench the picture goes by itself.
   if (waits_for_portal_ && !exercise_.at_bench()) sight_.fly_close_up({});
   skin_clear_.reset();
-  camera_before_bench_.reset();
+  at_ = WorkPlace::kJoint;
   hand_before_bench_.reset();
   ways_.clear();
   host_.note(ToastKind::kInfo, "The time is running. M takes the instrument, Esc releases it.");
@@ -468,28 +468,53 @@ void ExerciseControl::show_skin() {
     if (scene_.the_case->softs[i].kind == "skin") softs[i].opacity = clear ? kClearSkin : 1;
 }
 
-// The bench is another place than the joint: the picture goes there with the stage, and back. Where
-// a part ends before a stage at the bench it stays.
+ExerciseControl::WorkPlace ExerciseControl::place_of_work() const {
+  if (exercise_.at_bench()) return WorkPlace::kBench;
+  return exercise_.at_incision() ? WorkPlace::kSkin : WorkPlace::kJoint;
+}
+
+// How the picture is taken elsewhere than at the joint; none: there is no such place.
+std::optional<Camera> ExerciseControl::camera_at(WorkPlace place) const {
+  const Case& the_case = *scene_.the_case;
+  const Camera& from = sight_.view().camera;
+  if (place == WorkPlace::kBench) {
+    const auto bench = find_graft_bench(the_case);
+    if (bench) return bench_camera(from, *bench, sight_.viewport().aspect());
+  }
+  const auto& felt = live_.run()->softs();
+  for (std::size_t s = 0; felt && place == WorkPlace::kSkin && s < felt->skins.size(); ++s) {
+    const SkinPatch& patch = felt->skins[s];
+    if (!is_for_portal(patch))
+      return skin_camera(from, the_case.bone(patch.bone).X_WB * patch.X_BS);
+  }
+  return std::nullopt;
+}
+
+// The bench is another place than the joint, and so is skin beside it: the picture goes there with
+// the stage, and back. Where a part ends before a stage at the bench it stays.
 void ExerciseControl::go_with_stage() {
   const ScenarioState* const state = exercise_.state();
   if (state && state->over) return;
-  const bool at_bench = exercise_.at_bench();
-  bring_to_bench(at_bench);
-  if (at_bench == camera_before_bench_.has_value()) return;
+  const WorkPlace place = place_of_work();
+  bring_to_bench(place == WorkPlace::kBench);
+  if (place == at_) return;
   Camera& camera = sight_.view().camera;
-  if (!at_bench) {
-    camera = *camera_before_bench_;
-    camera_before_bench_.reset();
-    sight_.set_layout(layout_before_bench_);
+  if (place == WorkPlace::kJoint) {
+    camera = camera_at_joint_;
+    sight_.set_layout(layout_at_joint_);
+    at_ = place;
     return;
   }
-  const auto bench = find_graft_bench(*scene_.the_case);
-  if (!bench) return;
-  camera_before_bench_ = camera;
-  // A scope shows nothing there.
-  layout_before_bench_ = sight_.layout();
-  sight_.set_layout(PictureLayout::kOutside);
-  camera = bench_camera(camera, *bench, sight_.viewport().aspect());
+  const auto there = camera_at(place);
+  if (!there) return;
+  if (at_ == WorkPlace::kJoint) {
+    camera_at_joint_ = camera;
+    // A scope shows nothing there.
+    layout_at_joint_ = sight_.layout();
+    sight_.set_layout(PictureLayout::kOutside);
+  }
+  camera = *there;
+  at_ = place;
 }
 
 // So does the hand that works there, if the mouse moves it: over the bench, clear of what lies on

@@ -76,6 +76,9 @@ class ExerciseControl {
   void show_scope();
   void go_in_with_scope();
   void show_skin();
+  enum class WorkPlace { kJoint, kSkin, kBench };
+  WorkPlace place_of_work() const;
+  std::optional<Camera> camera_at(WorkPlace place) const;
   void go_with_stage();
   void bring_to_bench(bool at_bench);
 
@@ -89,12 +92,14 @@ class ExerciseControl {
   std::unique_ptr<SideJob<std::string>> placing_;     ///< of portals, before the patient is opened
   std::unique_ptr<SideJob<BegunAttempt>> beginning_;  ///< of a part, by the expert
   std::vector<PlannedHand> begun_hands_;              ///< likewise: who goes on
-  bool waits_for_portal_ = false;              ///< of the scope: till then one looks from outside
-  std::optional<bool> skin_clear_;             ///< as it was shown last; none: as it was
-  std::optional<Camera> camera_before_bench_;  ///< while a stage at a bench goes on
-  PictureLayout layout_before_bench_ = PictureLayout::kOutside;  ///< likewise
-  std::optional<Pose> hand_before_bench_;  ///< likewise, of the hand that was brought there
-  std::deque<Pose> ways_;                  ///< by which it goes on
+  bool waits_for_portal_ = false;     ///< of the scope: till then one looks from outside
+  std::optional<bool> skin_clear_;    ///< as it was shown last; none: as it was
+  WorkPlace at_ = WorkPlace::kJoint;  ///< where the live stage is worked on
+  Camera camera_at_joint_;            ///< while that is elsewhere
+  PictureLayout layout_at_joint_ = PictureLayout::kOutside;  ///< likewise
+  std::optional<Pose>
+      hand_before_bench_;  ///< while it is a bench, of the hand that was brought there
+  std::deque<Pose> ways_;  ///< by which it goes on
   DebriefView wanted_ = DebriefView::kNothing, shown_ = DebriefView::kNothing;
 };
 

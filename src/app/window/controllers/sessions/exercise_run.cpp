@@ -282,6 +282,12 @@ bool ExerciseRun::at_bench() const {
          is_at_bench(stages[watch_->state().stage]);
 }
 
+bool ExerciseRun::at_incision() const {
+  const auto& stages = scenario().stages;
+  return watch_ && watch_->state().stage < stages.size() &&
+         opens_skin(stages[watch_->state().stage]);
+}
+
 bool ExerciseRun::works_at_bench(std::size_t hand) const {
   const std::vector<std::string> names = used_by(hand);
   return std::any_of(names.begin(), names.end(), [](const std::string& name) {
@@ -294,6 +300,7 @@ bool ExerciseRun::is_under_skin() const {
   const bool felt = std::any_of(soft.begin(), soft.end(),
                                 [](const std::string& name) { return name.starts_with("skin"); });
   if (!felt || !plan_ || !watch_) return !felt;
+  if (at_incision()) return false;
   const auto from = stage_bent_after_portals(*plan_);
   return from && watch_->state().stage >= *from;
 }

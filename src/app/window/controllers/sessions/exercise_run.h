@@ -94,6 +94,8 @@ class ExerciseRun {
   void refuse(const Command& order) { refused_ = order; }
   /// Whether what the live stage asks for is done at a bench.
   bool at_bench() const;
+  /// Whether skin that is there for no portal is to be opened in the live stage.
+  bool at_incision() const;
   /// Whether a hand may take what is used there.
   bool works_at_bench(std::size_t hand) const;
   /// Whether skin is no longer felt, or never was: what lies under it is worked on.
