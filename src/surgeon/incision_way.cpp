@@ -8,7 +8,7 @@ namespace osteon {
 namespace {
 
 constexpr double kOverSite_m = 0.06, kJustOver_m = 0.004, kOffSite_m = 0.12;
-constexpr double kHalfCut_m = 0.016, kInFat_m = 0.004, kInBone_m = 0.014, kAside_m = 0.015;
+constexpr double kHalfCut_m = 0.016, kInFat_m = 0.008, kBeyondFat_m = 0.018, kAside_m = 0.015;
 constexpr double kCutting_m_per_s = 0.012;
 constexpr int kStretches = 8;  // of the stroke, from place to place on the skin
 
@@ -28,7 +28,7 @@ void open_skin(const Case& the_case, const Pose& X_WS, const RoundJoint& knee,
   blade.col(1) = blade.col(2).cross(blade.col(0));
   const Quat q(blade);
   const double aside_m = fault == "incision_aside" ? kAside_m : 0;
-  const double deep_m = fault == "incision_deep" ? kInBone_m : kInFat_m;
+  const double deep_m = fault == "incision_deep" ? kBeyondFat_m : kInFat_m;
   const auto at = [&](double along_m, double in_m) {
     const Vec3 on_W = surface.closest(X_WS * Vec3(aside_m, along_m, 0)).point;
     return Pose{on_W - in_m * n_W, q};

@@ -21,7 +21,7 @@ const std::vector<RuleKind>& skin_rule_table() {
        SubjectKind::kNothing,
        kSkinOpened},
       {"skin_opened_deep",
-       "a blade was in such skin by more than this beyond the bone or tendon under it",
+       "a blade went farther than this beyond the fat under such skin, into tendon or bone",
        false,
        {{"most_mm", 0, 100, 1}},
        SubjectKind::kNothing,
