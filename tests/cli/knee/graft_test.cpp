@@ -1,6 +1,7 @@
 // Making a graft and what it does in a knee, through the command line alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -97,7 +98,7 @@ TEST_F(GraftCommands, BadInputIsToldAndExitsTwo) {
 
 TEST_F(GraftCommands, TheTableOfFaultsTellsThemApart) {
   if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG=1";
-  const Ran ran = run_osteon("case acl-faults --knees 1 --json");
+  const Ran ran = run_osteon("case acl-faults --knees 3 --json");
   ASSERT_EQ(ran.exit_code, 0) << ran.output;
   const Json rows = Json::parse(ran.output);
   ASSERT_EQ(rows.size(), 8u);
@@ -109,6 +110,16 @@ TEST_F(GraftCommands, TheTableOfFaultsTellsThemApart) {
   EXPECT_LT(median(1, "graft_excursion_mm"), median(0, "graft_excursion_mm"));
   EXPECT_GT(median(1, "pivot_difference_mm"), median(0, "pivot_difference_mm"));
   EXPECT_GT(median(6, "lachman_difference_mm"), 3);
+  // Classic faults of the tunnels lie outside of what good ones give.
+  EXPECT_TRUE(rows[0]["outside_good"].empty());
+  const auto is_outside = [&](std::size_t row, const char* key) {
+    const Json& outside = rows[row]["outside_good"];
+    return std::find(outside.begin(), outside.end(), key) != outside.end();
+  };
+  for (const char* key : {"lachman_difference_mm", "pivot_rotation_deg", "graft_excursion_mm"})
+    EXPECT_TRUE(is_outside(1, key)) << key << rows[1];
+  for (const char* key : {"lachman_ahead_mm", "roof_gap_mm"})
+    EXPECT_TRUE(is_outside(2, key)) << key << rows[2];
 }
 
 }  // namespace

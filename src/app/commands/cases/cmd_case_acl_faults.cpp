@@ -55,9 +55,23 @@ std::vector<FaultRow> fault_rows() {
 }
 
 struct FaultFound {
-  double excursion_m = 0, lachman_m = 0, ahead_m = 0, pivot_m = 0, roof_m = 0;
+  double excursion_mm = 0, lachman_mm = 0, ahead_mm = 0, pivot_mm = 0, turn_deg = 0, roof_mm = 0;
   bool holds = true;
 };
+
+// What is measured of each reconstruction.
+struct FaultMeasure {
+  const char* key;    // of the JSON
+  const char* title;  // of the printed columns
+  double FaultFound::*value;
+};
+constexpr FaultMeasure kFaultMeasures[] = {
+    {"lachman_difference_mm", "Lachman", &FaultFound::lachman_mm},
+    {"lachman_ahead_mm", "ahead", &FaultFound::ahead_mm},
+    {"pivot_difference_mm", "pivot", &FaultFound::pivot_mm},
+    {"pivot_rotation_deg", "turn", &FaultFound::turn_deg},
+    {"graft_excursion_mm", "length", &FaultFound::excursion_mm},
+    {"roof_gap_mm", "roof", &FaultFound::roof_mm}};
 
 // The case's bones where they are at rest with the knee straight.
 Pose bone_pose(const CaseDef& def, const char* name) {
@@ -76,15 +90,21 @@ AclDrilling drilling_of(const CaseDef& straight, const AclPlan& plan) {
 }
 
 Result<FaultFound> reconstruct(const CaseDef& straight, const Case& bent, const FaultRow& row) {
-  const auto plan = plan_tunnels(bent, row.tunnels, kReamed_m);
+  const auto plan = plan_tunnels(bent, row.tunnels, kReamed_m, true);
   if (!plan) return tl::unexpected(plan.error());
   const auto report = make_acl_report(straight, drilling_of(straight, *plan), row.choices);
   if (!report) return tl::unexpected(report.error());
   if (!report->graft) return fail("a tunnel is missing", row.name);
   const GraftOutcome& graft = *report->graft;
-  return FaultFound{graft.excursion_m,     graft.lachman.anterior_m - graft.lachman_whole_m,
-                    graft.lachman_ahead_m, graft.pivot.anterior_m - graft.pivot_whole_m,
-                    graft.roof_gap_m,      graft.holds};
+  FaultFound out;
+  out.excursion_mm = 1e3 * graft.excursion_m;
+  out.lachman_mm = 1e3 * (graft.lachman.anterior_m - graft.lachman_whole_m);
+  out.ahead_mm = 1e3 * graft.lachman_ahead_m;
+  out.pivot_mm = 1e3 * (graft.pivot.anterior_m - graft.pivot_whole_m);
+  out.turn_deg = 180 / std::numbers::pi * graft.pivot.internal_rad;
+  out.roof_mm = 1e3 * graft.roof_gap_m;
+  out.holds = graft.holds;
+  return out;
 }
 
 struct Spread {
@@ -97,20 +117,22 @@ Spread spread_of(std::vector<double> values) {
   return {values.front(), values[values.size() / 2], values.back()};
 }
 
-std::vector<double> each(const std::vector<FaultFound>& found, double FaultFound::*what) {
-  std::vector<double> values;
-  for (const FaultFound& one : found) values.push_back(1e3 * (one.*what));
-  return values;
-}
-
 struct FaultSum {
   const char* name;
   std::vector<FaultFound> found;
 };
 
-FaultJson spread_json(const std::vector<FaultFound>& found, double FaultFound::*what) {
-  const Spread s = spread_of(each(found, what));
-  return {{"least", s.least}, {"median", s.middle}, {"most", s.most}};
+Spread spread_of(const FaultSum& sum, const FaultMeasure& measure) {
+  std::vector<double> values;
+  for (const FaultFound& one : sum.found) values.push_back(one.*measure.value);
+  return spread_of(std::move(values));
+}
+
+// Whether no knee with the fault measures as any knee without it.
+bool is_outside(const FaultSum& fault, const FaultSum& good, const FaultMeasure& measure) {
+  if (fault.found.empty() || good.found.empty() || &fault == &good) return false;
+  const Spread has = spread_of(fault, measure), wanted = spread_of(good, measure);
+  return has.least > wanted.most || has.most < wanted.least;
 }
 
 std::string sums_json(const std::vector<FaultSum>& sums) {
@@ -118,30 +140,39 @@ std::string sums_json(const std::vector<FaultSum>& sums) {
   for (const FaultSum& sum : sums) {
     const auto held = std::count_if(sum.found.begin(), sum.found.end(),
                                     [](const FaultFound& one) { return one.holds; });
-    rows.push_back({{"fault", sum.name},
-                    {"knees", sum.found.size()},
-                    {"holds", held},
-                    {"lachman_difference_mm", spread_json(sum.found, &FaultFound::lachman_m)},
-                    {"lachman_ahead_mm", spread_json(sum.found, &FaultFound::ahead_m)},
-                    {"pivot_difference_mm", spread_json(sum.found, &FaultFound::pivot_m)},
-                    {"graft_excursion_mm", spread_json(sum.found, &FaultFound::excursion_m)},
-                    {"roof_gap_mm", spread_json(sum.found, &FaultFound::roof_m)}});
+    FaultJson row{{"fault", sum.name}, {"knees", sum.found.size()}, {"holds", held}};
+    FaultJson outside = FaultJson::array();
+    for (const FaultMeasure& measure : kFaultMeasures) {
+      const Spread s = spread_of(sum, measure);
+      row[measure.key] = {{"least", s.least}, {"median", s.middle}, {"most", s.most}};
+      if (is_outside(sum, sums.front(), measure)) outside.push_back(measure.key);
+    }
+    row["outside_good"] = std::move(outside);
+    rows.push_back(std::move(row));
   }
   return rows.dump(2) + "\n";
 }
 
 std::string sums_text(const std::vector<FaultSum>& sums) {
   std::string text =
-      "least, median, most, mm: Lachman more than the intact knee; tibia ahead of the intact "
-      "knee's; pivot; change of the graft's length; space under the roof\n";
-  char line[320];
+      "least, median, most over the knees, mm: Lachman more than the intact knee; tibia ahead of "
+      "the intact knee's; pivot more than the intact knee; inward turn in the pivot, degrees; "
+      "change of the graft's length; space under the roof. *: no knee with this fault measures as "
+      "any without one\n";
+  char line[80];
+  const auto add = [&](const char* form, auto... values) {
+    std::snprintf(line, sizeof line, form, values...);
+    text += line;
+  };
+  add("%-18s", "");
+  for (const FaultMeasure& measure : kFaultMeasures) add("%20s", measure.title);
+  text += "\n";
   for (const FaultSum& sum : sums) {
-    text.append(sum.name).append(std::string(18 - std::string(sum.name).size(), ' '));
-    for (const auto what : {&FaultFound::lachman_m, &FaultFound::ahead_m, &FaultFound::pivot_m,
-                            &FaultFound::excursion_m, &FaultFound::roof_m}) {
-      const Spread s = spread_of(each(sum.found, what));
-      std::snprintf(line, sizeof line, "  %5.1f %5.1f %5.1f", s.least, s.middle, s.most);
-      text += line;
+    add("%-18s", sum.name);
+    for (const FaultMeasure& measure : kFaultMeasures) {
+      const Spread s = spread_of(sum, measure);
+      add(" %5.1f %5.1f %5.1f%s", s.least, s.middle, s.most,
+          is_outside(sum, sums.front(), measure) ? "*" : " ");
     }
     text += "\n";
   }
