@@ -186,14 +186,14 @@ TEST(Skin, SkinThatIsThereForNoPortalTellsHowMuchOfItIsOpen) {
     hand.move({x, to, -deep_m}, 400);
     hand.move({x, to, 0.010}, 200);
   };
-  cut(0.013, -0.010, 0.002, 0.004);
+  cut(0.013, -0.010, 0.002, 0.008);
   const Event* first = hand.first(kSkinOpened);
   ASSERT_NE(first, nullptr);
   const auto one = first->values;
   EXPECT_NEAR(one[0], 12, 1.3);
   EXPECT_NEAR(one[1], 3, 0.7);
   EXPECT_EQ(one[2], 0);
-  cut(-0.005, -0.004, 0.004, 0.0075);
+  cut(-0.005, -0.004, 0.004, 0.010);
   ASSERT_EQ(hand.count(kSkinOpened), 2u);
   const auto two = hand.last(kSkinOpened)->values;
   EXPECT_NEAR(two[0], one[0] + 8, 1.3);

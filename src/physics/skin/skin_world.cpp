@@ -52,7 +52,7 @@ SkinWorld::SkinWorld(const SoftSetup& setup, double coupling_n_per_m, double lim
       first_made_(first_made) {
   patches_.resize(setup_.skins.size());
   clear();
-  events_.reserve(kMaxHands * kMaxSkins * 7);
+  events_.reserve(kMaxHands * kMaxSkins * 8);
   scratch_.near.reserve(1024);
   for (const SkinPatch& patch : setup_.skins) (void)patch.whole->stiffness({}, scratch_);
 }
