@@ -74,8 +74,6 @@ constexpr std::array kRows = {
                  S::kSoftPart,
                  {"length_mm", "depth_mm", "duration_s"}},
     EventKindRow{
-        kSkinOpened, "skin_opened", "has opened", S::kSoftPart, {"open_mm", "aside_mm", "past_mm"}},
-    EventKindRow{
         kSkinPierced, "skin_pierced", "pierces", S::kSoftPart, {"force_n", "depth_mm", "hole_mm"}},
     EventKindRow{kSkinEntered,
                  "skin_entered",

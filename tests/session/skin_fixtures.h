@@ -127,7 +127,6 @@ struct SkinRun {
     EXPECT_TRUE(made) << made.error().message();
     SoftSetup setup;
     if (made) add_skins(setup, std::move(*made), std::move(uses));
-    let_openings_be_told(setup);
     settings.soft_hash = setup.hash;
     softs = std::make_shared<const SoftSetup>(std::move(setup));
   }
@@ -184,12 +183,6 @@ struct SkinHandAt {
     for (const Event& event : events)
       if (event.kind == kind) return &event;
     return nullptr;
-  }
-  const Event* last(EventKind kind) const {
-    const Event* found = nullptr;
-    for (const Event& event : events)
-      if (event.kind == kind) found = &event;
-    return found;
   }
   /// Force on the tool when it rests at `where`, come from above.
   double felt_at(const Vec3& where) {

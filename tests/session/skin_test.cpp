@@ -173,8 +173,8 @@ TEST(Skin, ABladeThatIsPressedOpensASlitAlongItsStroke) {
   EXPECT_NEAR(after / solved_n(cuts, {0.001, 0.0015}, kBallTip_m, 0.003), 1, 0.06);
 }
 
-// What is open adds up over strokes; how far aside and how deep is each stroke's own. Under
-// negative x a tendon lies 4 mm deep, under the rest nothing near.
+// What is open adds up over strokes; how far aside and how deep is the blade's own. Under negative
+// x a tendon lies 4 mm deep, under the rest nothing near.
 TEST(Skin, SkinThatIsThereForNoPortalTellsHowMuchOfItIsOpen) {
   const SkinRun run(0, false, 0.004, {"skin:beside"});
   Session session = run.session();
@@ -184,23 +184,22 @@ TEST(Skin, SkinThatIsThereForNoPortalTellsHowMuchOfItIsOpen) {
     hand.q = turn_between(Vec3::UnitX(), Vec3::UnitY());
     hand.move({x, from, -deep_m}, 200);
     hand.move({x, to, -deep_m}, 400);
+    const SkinBlade blade = session.snapshot().softs.skin.blades[0];
     hand.move({x, to, 0.010}, 200);
+    EXPECT_FALSE(session.snapshot().softs.skin.blades[0].in);
+    return blade;
   };
-  cut(0.013, -0.010, 0.002, 0.008);
-  const Event* first = hand.first(kSkinOpened);
-  ASSERT_NE(first, nullptr);
-  const auto one = first->values;
-  EXPECT_NEAR(one[0], 12, 1.3);
-  EXPECT_NEAR(one[1], 3, 0.7);
-  EXPECT_EQ(one[2], 0);
-  cut(-0.005, -0.004, 0.004, 0.010);
-  ASSERT_EQ(hand.count(kSkinOpened), 2u);
-  const auto two = hand.last(kSkinOpened)->values;
-  EXPECT_NEAR(two[0], one[0] + 8, 1.3);
-  EXPECT_NEAR(two[1], 15, 0.7);
-  EXPECT_GT(two[2], 1);
-  EXPECT_LT(two[2], 3.5);
-  EXPECT_EQ(hand.count(kSkinCutEnd), 2u);
+  const SkinBlade shallow = cut(0.013, -0.010, 0.002, 0.008);
+  const double first_m = session.snapshot().softs.skin.open_m;
+  EXPECT_TRUE(shallow.in);
+  EXPECT_NEAR(first_m, 0.012, 0.0013);
+  EXPECT_NEAR(shallow.aside_m, 0.003, 0.0007);
+  EXPECT_EQ(shallow.past_m, 0);
+  const SkinBlade deep = cut(-0.005, -0.004, 0.004, 0.010);
+  EXPECT_NEAR(session.snapshot().softs.skin.open_m, first_m + 0.008, 0.0013);
+  EXPECT_NEAR(deep.aside_m, 0.015, 0.0007);
+  EXPECT_GT(deep.past_m, 0.001);
+  EXPECT_LT(deep.past_m, 0.006);
 }
 
 TEST(Skin, APortalsSkinTellsNoOpening) {
@@ -208,7 +207,7 @@ TEST(Skin, APortalsSkinTellsNoOpening) {
   SkinHandAt hand(session);
   cut_along(hand, {-0.006, -0.002, 0}, {0.006, 0.002, 0});
   EXPECT_EQ(hand.count(kSkinCutEnd), 1u);
-  EXPECT_EQ(hand.count(kSkinOpened), 0u);
+  EXPECT_EQ(session.snapshot().softs.skin.open_m, 0);
 }
 
 TEST(Skin, ATouchThatIsTooLightAndABladeThatLiesFlatCutNothing) {

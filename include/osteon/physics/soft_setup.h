@@ -51,11 +51,10 @@ struct SoftSetup {
   bool hooks_tear = false;         ///< off a solid, as jaws do
   bool punches_bite = false;       ///< strands off bands
   std::vector<std::optional<SolidCutter>> biters;  ///< by the tray: what bites bands
-  bool clearers_part = false;   ///< what clears takes strands of bands that it presses, as it runs
-  bool wounds_open = false;     ///< what retracts holds the lips of cut skin apart
-  bool tells_openings = false;  ///< how long a cut is open in skin that is no portal's
-  SoftFriction friction;        ///< of instruments on it; none unless told
-  std::uint64_t hash = 0;       ///< over all of it
+  bool clearers_part = false;  ///< what clears takes strands of bands that it presses, as it runs
+  bool wounds_open = false;    ///< what retracts holds the lips of cut skin apart
+  SoftFriction friction;       ///< of instruments on it; none unless told
+  std::uint64_t hash = 0;      ///< over all of it
 };
 /// Lets instruments cut bands, by their places in the tray. Nothing changes where there are none.
 void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutting_n);
@@ -103,9 +102,6 @@ void let_bridges_tear(SoftSetup& setup);
 /// What retracts holds the lips of cut skin apart then. Nothing changes where there is no patch of
 /// skin, or nothing in the tray retracts.
 void let_wounds_be_held_open(SoftSetup& setup);
-/// A blade that comes out of skin that is no portal's tells how much is open then (kSkinOpened).
-/// Nothing changes where there is no such patch.
-void let_openings_be_told(SoftSetup& setup);
 /// What a set-up does more than those from before it.
 void tell_hash(SoftSetup& setup, std::string_view does);
 /// Lets jaws hold what is soft, by their places in the tray. Nothing changes where none does.

@@ -21,10 +21,6 @@ inline constexpr EventKind kSkinCutEnd{113};   ///< and has come out
 inline constexpr EventKind kSkinPierced{114};  ///< a tool has broken through skin
 inline constexpr EventKind kSkinEntered{115};  ///< a tool has gone in where skin was open
 inline constexpr EventKind kSkinLeft{116};     ///< and is out again
-/// A blade has come out of a patch of skin that is no portal's: {how much of it is open now, mm;
-/// how far beside the patch's middle, across the limb, mm; how far the blade went beyond the fat,
-/// which ends at bone or tendon, mm}.
-inline constexpr EventKind kSkinOpened{125};
 /// So much of a torn ligament's stump is gone: {of this stump, of all together, %}. By whole
 /// percents of the stump.
 inline constexpr EventKind kSoftCleared{117};

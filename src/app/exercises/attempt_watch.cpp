@@ -209,6 +209,7 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   if (!tools.empty()) graft_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) placing_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) exam_.add(tools[0]->tick, bones, fresh_);
+  skin_.add(tools, bones, fresh_);
   if (portals_) portals_->add(tools, bones, fresh_);
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
   if (water_) water_->add(tools, bones, fresh_);

@@ -21,6 +21,7 @@
 #include "osteon/procedure/portal_watch.h"
 #include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
+#include "osteon/procedure/skin_watch.h"
 #include "osteon/procedure/sound_part_watch.h"
 #include "osteon/procedure/stump_watch.h"
 #include "osteon/procedure/tool_events.h"
@@ -131,6 +132,7 @@ class AttemptWatch {
   GraftWatch graft_;
   PlacingWatch placing_;
   std::optional<StumpWatch> stumps_;
+  SkinWatch skin_;
   std::optional<SoundPartWatch> sound_parts_;
   KneeExamWatch exam_;
   std::optional<PortalWatch> portals_;

@@ -329,12 +329,6 @@ void let_wounds_be_held_open(SoftSetup& setup) {
   tell_hash(setup, "wounds are held open");
 }
 
-void let_openings_be_told(SoftSetup& setup) {
-  if (std::all_of(setup.skins.begin(), setup.skins.end(), is_for_portal)) return;
-  setup.tells_openings = true;
-  tell_hash(setup, "openings are told");
-}
-
 std::vector<Portal> portals_to_make(const Case& the_case, std::span<const std::string> names,
                                     const PortalSkin& skin) {
   std::vector<std::string> skins;

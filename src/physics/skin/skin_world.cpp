@@ -52,7 +52,7 @@ SkinWorld::SkinWorld(const SoftSetup& setup, double coupling_n_per_m, double lim
       first_made_(first_made) {
   patches_.resize(setup_.skins.size());
   clear();
-  events_.reserve(kMaxHands * kMaxSkins * 8);
+  events_.reserve(kMaxHands * kMaxSkins * 7);
   scratch_.near.reserve(1024);
   for (const SkinPatch& patch : setup_.skins) (void)patch.whole->stiffness({}, scratch_);
 }
@@ -309,18 +309,7 @@ void SkinWorld::end_stroke_of(const At& at) {
   tell_event(at, kSkinCutEnd,
              {1e3 * hand.stroke_m, 1e3 * hand.deepest_m,
               static_cast<double>(step_ - hand.since_step) * step_s_});
-  tell_opening(at);
   changed(at.patch);
-}
-
-void SkinWorld::tell_opening(const At& at) {
-  const SkinPatch& patch = setup_.skins[at.patch];
-  if (!setup_.tells_openings || is_for_portal(patch)) return;
-  const SkinHand& hand = *at.state;
-  const double past_m = hand.deepest_m - patch.cover.at(hand.p).height_m;
-  tell_event(
-      at, kSkinOpened,
-      {1e3 * patches_[at.patch].cut_m, 1e3 * std::abs(hand.p.x()), 1e3 * std::max(0.0, past_m)});
 }
 
 // Elastic until it breaks or a slit lets it in; then the hole's rim holds the shaft, and the fat
@@ -541,6 +530,22 @@ void SkinWorld::step(std::span<const SkinToolNow> hands, const BoneSnapshot& bon
     if (setup_.wounds_open) hold_open(s, bones.step);
     follow_stiffness(s);
   }
+}
+
+SkinOpening SkinWorld::opening() const {
+  SkinOpening out;
+  for (std::size_t s = 0; s < patches_.size(); ++s) {
+    const SkinPatch& patch = setup_.skins[s];
+    if (is_for_portal(patch)) continue;
+    out.open_m += patches_[s].cut_m;
+    for (std::size_t h = 0; h < kMaxHands; ++h) {
+      const SkinHand& hand = hands_[h][s];
+      if (!hand.cutting) continue;
+      const double past_m = hand.deepest_m - patch.cover.at(hand.p).height_m;
+      out.blades[h] = {true, std::abs(hand.p.x()), std::max(0.0, past_m)};
+    }
+  }
+  return out;
 }
 
 void SkinWorld::tell(std::size_t hand, BandContacts& contacts) const {

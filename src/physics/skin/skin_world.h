@@ -12,6 +12,7 @@
 #include "osteon/scene/event.h"
 #include "osteon/scene/soft_band.h"
 #include "osteon/scene/soft_pushes.h"
+#include "osteon/scene/soft_told.h"
 #include "osteon/scene/tool.h"
 #include "osteon/tissue/sheet_lips.h"
 #include "skin/skin_slits.h"
@@ -44,6 +45,8 @@ class SkinWorld {
   void step(std::span<const SkinToolNow> hands, const BoneSnapshot& bones);
   std::span<const Event> events() const { return events_; }
   void tell(std::size_t hand, BandContacts& contacts) const;
+  /// Of the patches that are there for no portal.
+  SkinOpening opening() const;
   /// Of a patch, by its place there.
   MadePortal made_portal(std::size_t patch, std::uint32_t portal) const;
   void show(SoftPushes& pushes) const;
@@ -102,7 +105,6 @@ class SkinWorld {
   void make_hole(const At& at, double radius_m);
   void follow_portal(const At& at);
   bool is_bare(std::size_t patch) const;
-  void tell_opening(const At& at);
   double slit_at(const At& at) const;
   void make_portal(const At& at);
   std::optional<std::uint32_t> opening_at(const At& at) const;

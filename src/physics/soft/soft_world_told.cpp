@@ -4,6 +4,7 @@
 
 #include "osteon/physics/band_strands.h"
 #include "osteon/physics/soft_world.h"
+#include "skin/skin_world.h"
 #include "soft/solid_cutting.h"
 
 namespace osteon {
@@ -49,6 +50,7 @@ SoftTold SoftWorld::told() const {
     if (gone_m3 > 0) out.losses[out.loss_count++] = {solid.soft, kToldMm3 * gone_m3, 0};
     for (std::size_t h = 0; h < kMaxHands; ++h) touch(h, solid.soft, solid_readouts_[s].force_n[h]);
   }
+  if (skins_) out.skin = skins_->opening();
   return out;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "osteon/scene/soft_events.h"
+#include "osteon/procedure/skin_watch.h"
 
 namespace osteon {
 
@@ -15,7 +15,7 @@ const std::vector<RuleKind>& skin_rule_table() {
        SubjectKind::kNothing,
        kSkinOpened},
       {"skin_opened_aside",
-       "a blade comes out of such skin farther from its middle than this, across the limb",
+       "a blade cuts such skin farther from its middle than this, across the limb",
        false,
        {{"most_mm", 0, 100, 12}},
        SubjectKind::kNothing,

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "osteon/procedure/skin_watch.h"
 #include "osteon/scene/soft_events.h"
 
 namespace osteon {
@@ -25,7 +26,6 @@ struct SkinRuleRig {
     event.tick = 1500;
     event.kind = kind;
     event.hand = 2;
-    event.subject_kind = SubjectKind::kSoftPart;
     event.values = values;
     const auto made = step_rule(rule, event, 0.001, state);
     if (made) EXPECT_NEAR(made->at_s, 1.5, 1e-9);

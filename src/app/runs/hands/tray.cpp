@@ -254,7 +254,7 @@ Result<SoftSetup> softs_as(const Case& the_case, const SessionSettings& settings
        {let_pieces_meet_softs, let_bands_part_by_strands, let_bridges_tear, let_wounds_be_held_open,
         let_pieces_be_stopped, let_hooks_tear_and_punches_bite, let_thin_parts_stop_pieces,
         let_presses_be_bounded, let_clearers_part_bands, let_suction_heed_thin_parts,
-        let_covered_parts_wait, let_clearing_go_by_strides, let_openings_be_told})
+        let_covered_parts_wait, let_clearing_go_by_strides})
     if (lacks_something()) let(setup);
   return setup;
 }
