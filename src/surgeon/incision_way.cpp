@@ -8,7 +8,9 @@ namespace osteon {
 namespace {
 
 constexpr double kOverSite_m = 0.06, kJustOver_m = 0.004, kOffSite_m = 0.12;
-constexpr double kHalfCut_m = 0.016, kInFat_m = 0.008, kBeyondFat_m = 0.018, kAside_m = 0.015;
+constexpr double kHalfCut_m = 0.016, kAside_m = 0.015;
+// So far below the skin a hand goes: hand and skin give way by half of the first.
+constexpr double kInFat_m = 0.011, kBeyondFat_m = 0.022;
 constexpr double kCutting_m_per_s = 0.012;
 constexpr int kStretches = 8;  // of the stroke, from place to place on the skin
 

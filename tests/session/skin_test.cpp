@@ -184,19 +184,19 @@ TEST(Skin, SkinThatIsThereForNoPortalTellsHowMuchOfItIsOpen) {
     hand.q = turn_between(Vec3::UnitX(), Vec3::UnitY());
     hand.move({x, from, -deep_m}, 200);
     hand.move({x, to, -deep_m}, 400);
-    const SkinBlade blade = session.snapshot().softs.skin.blades[0];
+    const SkinBlade blade = session.bones().softs.skin.blades[0];
     hand.move({x, to, 0.010}, 200);
-    EXPECT_FALSE(session.snapshot().softs.skin.blades[0].in);
+    EXPECT_FALSE(session.bones().softs.skin.blades[0].in);
     return blade;
   };
   const SkinBlade shallow = cut(0.013, -0.010, 0.002, 0.008);
-  const double first_m = session.snapshot().softs.skin.open_m;
+  const double first_m = session.bones().softs.skin.open_m;
   EXPECT_TRUE(shallow.in);
   EXPECT_NEAR(first_m, 0.012, 0.0013);
   EXPECT_NEAR(shallow.aside_m, 0.003, 0.0007);
   EXPECT_EQ(shallow.past_m, 0);
   const SkinBlade deep = cut(-0.005, -0.004, 0.004, 0.010);
-  EXPECT_NEAR(session.snapshot().softs.skin.open_m, first_m + 0.008, 0.0013);
+  EXPECT_NEAR(session.bones().softs.skin.open_m, first_m + 0.008, 0.0013);
   EXPECT_NEAR(deep.aside_m, 0.015, 0.0007);
   EXPECT_GT(deep.past_m, 0.001);
   EXPECT_LT(deep.past_m, 0.006);
@@ -207,7 +207,7 @@ TEST(Skin, APortalsSkinTellsNoOpening) {
   SkinHandAt hand(session);
   cut_along(hand, {-0.006, -0.002, 0}, {0.006, 0.002, 0});
   EXPECT_EQ(hand.count(kSkinCutEnd), 1u);
-  EXPECT_EQ(session.snapshot().softs.skin.open_m, 0);
+  EXPECT_EQ(session.bones().softs.skin.open_m, 0);
 }
 
 TEST(Skin, ATouchThatIsTooLightAndABladeThatLiesFlatCutNothing) {

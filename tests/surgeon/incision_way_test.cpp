@@ -78,17 +78,17 @@ TEST(IncisionWay, OneStrokeAlongTheLimbThroughTheSkin) {
   EXPECT_GT(done.to - done.from, 0.028);
   EXPECT_LT(done.to - done.from, 0.04);
   EXPECT_NEAR(done.to + done.from, 0, 1e-6);
-  EXPECT_GT(done.deepest, 0.006);
-  EXPECT_LT(done.deepest, 0.010);
+  EXPECT_GT(done.deepest, 0.010);
+  EXPECT_LT(done.deepest, 0.013);
   EXPECT_NEAR(done.x, 0, 1e-6);
 }
 
 TEST(IncisionWay, WhoErrsCutsAsideOrTooDeepAndNotBoth) {
   const Stroke aside = opened("incision_aside"), deep = opened("incision_deep");
   EXPECT_GT(std::abs(aside.x), 0.0125);
-  EXPECT_LT(aside.deepest, 0.012);
+  EXPECT_LT(aside.deepest, 0.014);
   EXPECT_NEAR(deep.x, 0, 1e-6);
-  EXPECT_GT(deep.deepest, 0.016);
+  EXPECT_GT(deep.deepest, 0.020);
 }
 
 }  // namespace
