@@ -28,7 +28,7 @@ struct SkinRuleRig {
     event.hand = 2;
     event.values = values;
     const auto made = step_rule(rule, event, 0.001, state);
-    if (made) EXPECT_NEAR(made->at_s, 1.5, 1e-9);
+    EXPECT_NEAR(made ? made->at_s : 1.5, 1.5, 1e-9);
     return made.has_value();
   }
   PlannedRule rule;
