@@ -436,8 +436,8 @@ void ExerciseControl::begin_to_work(const std::vector<PlannedHand>& hands) {
   scene_.views.set_skin_felt(waits_for_portal_);
   if (looks && !waits_for_portal_) show_scope();
   look_at_the_box(hands);
-  // A cut of 10 mm is small in a picture of the whole leg. To a bench the picture goes by itself.
-  if (waits_for_portal_ && !exercise_.at_bench()) sight_.fly_close_up({});
+  // A cut of 10 mm is small in a picture of the whole leg. Elsewhere the picture goes by itself.
+  if (waits_for_portal_ && place_of_work() == WorkPlace::kJoint) sight_.fly_close_up({});
   skin_clear_.reset();
   at_ = WorkPlace::kJoint;
   hand_before_bench_.reset();
