@@ -5,7 +5,6 @@
 
 #include "osteon/base/hash.h"
 #include "osteon/physics/fallen_pieces.h"
-#include "osteon/physics/skin_state.h"
 
 namespace osteon {
 namespace {

@@ -8,7 +8,7 @@ namespace osteon {
 namespace {
 
 constexpr double kOverSite_m = 0.06, kJustOver_m = 0.004, kOffSite_m = 0.12;
-constexpr double kHalfCut_m = 0.016, kAside_m = 0.015;
+constexpr double kHalfCut_m = 0.016, kBesideSite_m = 0.015;
 // So far below the skin a hand goes: hand and skin give way by half of the first.
 constexpr double kInFat_m = 0.011, kBeyondFat_m = 0.022;
 constexpr double kCutting_m_per_s = 0.012;
@@ -29,7 +29,7 @@ void open_skin(const Case& the_case, const Pose& X_WS, const RoundJoint& knee,
   blade.col(2) = n_W;
   blade.col(1) = blade.col(2).cross(blade.col(0));
   const Quat q(blade);
-  const double aside_m = fault == "incision_aside" ? kAside_m : 0;
+  const double aside_m = fault == "incision_aside" ? kBesideSite_m : 0;
   const double deep_m = fault == "incision_deep" ? kBeyondFat_m : kInFat_m;
   const auto at = [&](double along_m, double in_m) {
     const Vec3 on_W = surface.closest(X_WS * Vec3(aside_m, along_m, 0)).point;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "osteon/physics/skin_bare.h"
 #include "osteon/physics/soft_state.h"
 #include "osteon/scene/made_portal.h"
 #include "osteon/scene/state.h"
@@ -78,13 +79,6 @@ struct SkinHand {
   bool in_wound = false;         ///< it stands between the lips of a cut that is held open
   std::uint32_t held_steps = 0;  ///< in which a portal has held it since it went through
   BandTouch touch;
-};
-
-/// What of the skin is felt no more.
-enum class SkinBare : std::uint64_t {
-  kNone = 0,
-  kPortals = 1,  ///< patches of portals, from when on each of them has one
-  kAll = 2
 };
 
 /// All that happens to patches of skin: a value.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "osteon/physics/joint_water.h"
+#include "osteon/physics/skin_bare.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/soft_state.h"
 #include "osteon/scene/event.h"
@@ -14,8 +15,6 @@
 #include "osteon/scene/tool.h"
 
 namespace osteon {
-
-enum class SkinBare : std::uint64_t;
 
 /// How a band was pulled in the last step.
 struct BandReadout {

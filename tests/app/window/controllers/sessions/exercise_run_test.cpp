@@ -123,7 +123,7 @@ TEST_F(ExerciseRunTest, WhatWasMadeBeforeLeavesOutItsStages) {
                                          portal + R"(, "portal_am": )" + portal + "}}",
                                      "puncture.json");
   ASSERT_TRUE(used) << used.error().message();
-  EXPECT_EQ(run_.model().stages.size(), whole - 12);
+  EXPECT_EQ(run_.model().stages.size(), whole - 13);
   EXPECT_EQ(run_.model().stages.front().title, "The notch");
   EXPECT_TRUE(run_.portals_to_place());
   run_.set_placed("builtin:knee#portal_al=1/2/3/1/0/0");
