@@ -38,9 +38,7 @@ bool is_at_bench(const ScenarioStage& stage) {
 // With them the skin is left whole through which the tendons would come.
 void leave_out_bench_stages(Scenario& scenario) {
   if (std::erase_if(scenario.stages, opens_skin) > 0)
-    std::erase_if(scenario.soft, [](const std::string& name) {
-      return name.starts_with("skin:") && !name.starts_with("skin:portal_");
-    });
+    std::erase_if(scenario.soft, is_skin_elsewhere);
   std::erase_if(scenario.stages, is_at_bench);
 }
 

@@ -23,6 +23,14 @@ std::optional<std::uint32_t> stage_bent_after_portals(const ScenarioPlan& plan) 
   return std::nullopt;
 }
 
+bool is_skin_of_portals(const std::string& soft) {
+  return soft == "skin" || soft.starts_with("skin:portal_");
+}
+
+bool is_skin_elsewhere(const std::string& soft) {
+  return soft.starts_with("skin:") && !is_skin_of_portals(soft);
+}
+
 bool opens_skin(const ScenarioStage& stage) { return has_goal_of(stage, "skin_opened"); }
 
 std::optional<std::uint32_t> stage_after_incision(const ScenarioPlan& plan) {
@@ -43,9 +51,7 @@ void leave_out_puncture_stages(Scenario& scenario) {
   });
   if (bent != stages.end()) end = bent + 1;
   if (first != stages.end()) stages.erase(first, end);
-  std::erase_if(scenario.soft, [](const std::string& name) {
-    return name == "skin" || name.starts_with("skin:portal_");
-  });
+  std::erase_if(scenario.soft, is_skin_of_portals);
 }
 
 void SkinOrder::see(const ScenarioPlan& plan, const ScenarioState& state, std::uint32_t epoch) {

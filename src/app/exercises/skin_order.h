@@ -16,6 +16,11 @@ std::optional<std::uint32_t> stage_bent_after_portals(const ScenarioPlan& plan);
 /// portals that were made before.
 void leave_out_puncture_stages(Scenario& scenario);
 
+/// Whether what a scenario names as soft is skin in which portals are made.
+bool is_skin_of_portals(const std::string& soft);
+/// Whether it is skin that is there for no portal.
+bool is_skin_elsewhere(const std::string& soft);
+
 /// Whether skin is to be opened in a stage, elsewhere than for a portal.
 bool opens_skin(const ScenarioStage& stage);
 

@@ -93,6 +93,17 @@ TEST(SkinOrder, SkinThatIsOpenedLaterIsFeltUntilThatStageIsOver) {
   EXPECT_EQ(order.take()->value, 1);
 }
 
+TEST(SkinOrder, SkinIsForPortalsByItsName) {
+  for (const char* name : {"skin", "skin:portal_al", "skin:portal_3_4"}) {
+    EXPECT_TRUE(is_skin_of_portals(name)) << name;
+    EXPECT_FALSE(is_skin_elsewhere(name)) << name;
+  }
+  EXPECT_TRUE(is_skin_elsewhere("skin:pes_anserinus"));
+  for (const char* name : {"skin:pes_anserinus", "menisci", "stumps"})
+    EXPECT_FALSE(is_skin_of_portals(name)) << name;
+  EXPECT_FALSE(is_skin_elsewhere("menisci"));
+}
+
 TEST(SkinOrder, StagesOfPortalsThatWereMadeBeforeAreLeftOut) {
   Scenario scenario =
       plan_of({"portal_made", "through", "portal_made", "knee_bent", "seen", "knee_bent"}).scenario;

@@ -128,7 +128,7 @@ HandPart waiting_part(const std::string& held, const Pose& at, double until_s,
 std::optional<Pose> site_of_incision(const ScenarioPlan& plan, const Case& the_case) {
   if (!has_goal(plan, "skin_opened")) return std::nullopt;
   for (const std::string& name : plan.scenario.soft) {
-    if (!name.starts_with("skin:") || name.starts_with("skin:portal_")) continue;
+    if (!is_skin_elsewhere(name)) continue;
     if (const auto X_WS = patch_frame(the_case, name, {anatomical_frame(the_case).distal_W}))
       return *X_WS;
   }

@@ -432,7 +432,8 @@ void ExerciseControl::begin_to_work(const std::vector<PlannedHand>& hands) {
   const bool looks = std::any_of(hands.begin(), hands.end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   const auto& felt = live_.run()->softs();
-  waits_for_portal_ = looks && felt && !felt->skins.empty();
+  waits_for_portal_ =
+      looks && felt && std::any_of(felt->skins.begin(), felt->skins.end(), is_for_portal);
   scene_.views.set_skin_felt(waits_for_portal_);
   if (looks && !waits_for_portal_) show_scope();
   look_at_the_box(hands);

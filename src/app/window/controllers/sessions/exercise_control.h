@@ -97,9 +97,8 @@ class ExerciseControl {
   WorkPlace at_ = WorkPlace::kJoint;  ///< where the live stage is worked on
   Camera camera_at_joint_;            ///< while that is elsewhere
   PictureLayout layout_at_joint_ = PictureLayout::kOutside;  ///< likewise
-  std::optional<Pose>
-      hand_before_bench_;  ///< while it is a bench, of the hand that was brought there
-  std::deque<Pose> ways_;  ///< by which it goes on
+  std::optional<Pose> hand_before_bench_;                    ///< of the one that was brought there
+  std::deque<Pose> ways_;                                    ///< by which it goes on
   DebriefView wanted_ = DebriefView::kNothing, shown_ = DebriefView::kNothing;
 };
 

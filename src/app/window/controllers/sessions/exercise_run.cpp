@@ -296,11 +296,10 @@ bool ExerciseRun::works_at_bench(std::size_t hand) const {
 }
 
 bool ExerciseRun::is_under_skin() const {
-  const auto& soft = scenario().soft;
-  const bool felt = std::any_of(soft.begin(), soft.end(),
-                                [](const std::string& name) { return name.starts_with("skin"); });
-  if (!felt || !plan_ || !watch_) return !felt;
   if (at_incision()) return false;
+  const auto& soft = scenario().soft;
+  const bool felt = std::any_of(soft.begin(), soft.end(), is_skin_of_portals);
+  if (!felt || !plan_ || !watch_) return !felt;
   const auto from = stage_bent_after_portals(*plan_);
   return from && watch_->state().stage >= *from;
 }
