@@ -23,6 +23,9 @@
 namespace osteon {
 namespace {
 
+// Places that an outside view goes to from the joint.
+constexpr const char *kAtBench = "bench", *kAtSkin = "skin";
+
 constexpr double kRoomMoves_m = 0.015;  // of the tip, before the joint's wall is shaped anew
 
 void put(const Image& part, int left, int top, Image& into) {
@@ -90,7 +93,8 @@ struct FilmPainter::Impl {
   ViewState with_felt(ViewState view) const;
   bool looks_at_bench(const FilmMoment& moment);
   bool looks_through_scope(const FilmMoment& moment) const;
-  const ViewState& outside_view(double aspect, bool at_bench);
+  std::string place_outside(const FilmMoment& moment);
+  const ViewState& outside_view(double aspect, const std::string& place);
   const ViewState& panorama_of(const std::string& side, double aspect);
   void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
   void show_carved();
@@ -109,7 +113,8 @@ struct FilmPainter::Impl {
   };
   std::optional<Look> looked_outside, looked_panorama;  ///< made once: they ask the whole case
   std::optional<GraftBenchPlan> bench;                  ///< beside a limb
-  double at_bench_until_s = -1;
+  double at_bench_until_s = -1, at_skin_until_s = -1;
+  std::optional<Pose> X_WSite;  ///< of skin that is there for no portal, over bones at rest
   std::vector<Aabb> bone_boxes_B;
   std::vector<std::uint32_t> felt_softs;   ///< what gives way is seen
   std::optional<std::uint32_t> felt_skin;  ///< seen from outside, and not through
@@ -202,6 +207,16 @@ bool FilmPainter::Impl::looks_at_bench(const FilmMoment& moment) {
   return moment.time_s < at_bench_until_s;
 }
 
+// To skin that is cut as well. It is drawn where bones are now: they stand still meanwhile.
+std::string FilmPainter::Impl::place_outside(const FilmMoment& moment) {
+  constexpr double kStays_s = 1.5;
+  const auto& blades = moment.bones.softs.skin.blades;
+  if (std::any_of(blades.begin(), blades.end(), [](const SkinBlade& blade) { return blade.in; }))
+    at_skin_until_s = moment.time_s + kStays_s;
+  if (looks_at_bench(moment)) return kAtBench;
+  return X_WSite && moment.time_s < at_skin_until_s ? kAtSkin : "";
+}
+
 // One that was put down beside the limb has no bone within its sight.
 bool FilmPainter::Impl::looks_through_scope(const FilmMoment& moment) const {
   constexpr double kSight_m = 0.06;
@@ -215,12 +230,12 @@ bool FilmPainter::Impl::looks_through_scope(const FilmMoment& moment) const {
   return false;
 }
 
-const ViewState& FilmPainter::Impl::outside_view(double aspect, bool at_bench) {
-  const std::string place = at_bench ? "bench" : "";
+const ViewState& FilmPainter::Impl::outside_view(double aspect, const std::string& place) {
   if (looked_outside && looked_outside->aspect == aspect && looked_outside->side == place)
     return looked_outside->view;
   ViewState view = plain_view(aspect);
-  if (at_bench) view.camera = bench_camera(view.camera, *bench, aspect);
+  if (place == kAtBench) view.camera = bench_camera(view.camera, *bench, aspect);
+  if (place == kAtSkin) view.camera = skin_camera(view.camera, *X_WSite);
   if (felt_skin) {
     view.softs[*felt_skin].visible = true;
     view.softs[*felt_skin].opacity = 1;
@@ -237,7 +252,7 @@ const ViewState& FilmPainter::Impl::panorama_of(const std::string& side, double 
 
 Result<Image> FilmPainter::Impl::outside(const FilmMoment& moment, int width, int height) {
   const double aspect = static_cast<double>(width) / height;
-  return scene(*renderer, moment, outside_view(aspect, looks_at_bench(moment)), width, height);
+  return scene(*renderer, moment, outside_view(aspect, place_outside(moment)), width, height);
 }
 
 Result<Image> FilmPainter::Impl::panorama(const FilmMoment& moment, const std::string& side,
@@ -350,10 +365,14 @@ void FilmPainter::set_softs(const std::shared_ptr<const SoftSetup>& setup) {
   impl_->looked_panorama.reset();
   impl_->felt_softs.clear();
   impl_->felt_skin.reset();
+  impl_->X_WSite.reset();
   if (setup) {
     for (const SoftBand& band : setup->bands) impl_->felt_softs.push_back(band.soft);
     for (const SoftSolid& solid : setup->solids) impl_->felt_softs.push_back(solid.soft);
     if (!setup->skins.empty()) impl_->felt_skin = setup->skins[0].soft;
+    for (const SkinPatch& patch : setup->skins)
+      if (!is_for_portal(patch))
+        impl_->X_WSite = impl_->the_case->bone(patch.bone).X_WB * patch.X_BS;
   }
 }
 
