@@ -20,6 +20,10 @@ constexpr double kThere_m = 0.0001;
 // is drawn back and comes again takes it along.
 constexpr double kGoesOn_m = 0.0001, kStuck_s = 12, kDrawnBack_m = 0.015, kDrawn_m_per_s = 0.02;
 constexpr int kMostDrawnBack = 3;
+// Before it is given up it is drawn back far out of what has wedged, and has this share of its time
+// once more.
+constexpr int kLastTries = 2;
+constexpr double kDrawnFar_m = 0.06, kOnceMore = 0.5;
 constexpr double kOnLine_m = 0.0001, kLeanSettles_s = 0.3;
 constexpr double kFastestTurn_rad_per_s = 1.5;
 constexpr double kTremble_Hz = 9.1;
@@ -68,17 +72,17 @@ void AclDriller::press(const AclMove& move, double dt_s) {
   const double left_m = wanted_m + kGivesWay_m_per_n * felt_n;
   if (in_move_s_ == 0) {
     least_left_m_ = left_m;
-    stuck_s_ = back_m_ = 0;
-    drawn_back_ = 0;
+    stuck_s_ = back_m_ = longer_s_ = 0;
+    drawn_back_ = last_tries_ = 0;
   }
-  if (back_m_ > 0 || is_stuck(left_m, dt_s)) {
+  const bool late = in_move_s_ > move.value + longer_s_;
+  if (back_m_ > 0 || is_stuck(left_m, dt_s) || (late && tries_again(move, left_m))) {
     back_m_ -= kDrawn_m_per_s * dt_s;
     p_W_ = move.X_WT.p + (wanted_m + kDrawn_m_per_s * dt_s) * back;
     q_ = move.X_WT.q;
     in_move_s_ += dt_s;
     return;
   }
-  const bool late = in_move_s_ > move.value;
   if (left_m < kThere_m || late) {
     if (late) ++given_up_;
     return next();
@@ -104,6 +108,15 @@ bool AclDriller::is_stuck(double left_m, double dt_s) {
   ++drawn_back_;
   stuck_s_ = 0;
   back_m_ = kDrawnBack_m;
+  return true;
+}
+
+bool AclDriller::tries_again(const AclMove& move, double left_m) {
+  if (left_m < kThere_m || last_tries_ >= kLastTries) return false;
+  ++last_tries_;
+  back_m_ = kDrawnFar_m;
+  longer_s_ += kDrawnFar_m / kDrawn_m_per_s + kOnceMore * move.value;
+  stuck_s_ = 0;
   return true;
 }
 

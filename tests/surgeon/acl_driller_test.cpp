@@ -66,11 +66,16 @@ TEST(AclDriller, GivesUpWhereNothingLetsItThrough) {
   AclDriller hand(moves, expert_skill());
   SoftStuff stuff;
   stuff.m_per_s_n = 0;
-  for (int n = 0; n < 6000 && !hand.done(); ++n) {
+  double highest_m = 0;
+  int ticks = 0;
+  while (!hand.done() && ++ticks < 20000) {
     const Pose wanted = hand.step(0.001);
+    if (ticks > 3000) highest_m = std::max(highest_m, wanted.p.z());
     hand.feel(stuff.force(wanted, 0.001));
   }
   EXPECT_TRUE(hand.done());
+  EXPECT_GT(highest_m, 0.05) << "drawn back far before it is given up";
+  EXPECT_NEAR(ticks, 1e3 * (3 + 2 * (3 + 1.5)), 1000);
   EXPECT_EQ(hand.given_up(), 1u);
   hand.feel(Vec3(NAN, 0, 0));
   EXPECT_TRUE(is_finite(hand.step(0.001)));
@@ -94,6 +99,25 @@ TEST(AclDriller, WhatGoesNoFartherIsDrawnBackAndPressedAgain) {
   EXPECT_EQ(hand.given_up(), 0u);
   EXPECT_NEAR(stuff.tip_m, -0.02, 0.0005);
   EXPECT_LT(ticks, 40000) << "long before its time is over";
+}
+
+// What only a drill that comes from far back gets rid of.
+TEST(AclDriller, BeforeItIsGivenUpItComesFromFarBack) {
+  auto moves = down_to(-0.02, 2, false);
+  moves.back().value = 8;
+  AclDriller hand(moves, expert_skill());
+  SoftStuff stuff;
+  bool freed = false;
+  int ticks = 0;
+  while (!hand.done() && ++ticks < 60000) {
+    const Pose wanted = hand.step(0.001);
+    freed = freed || (stuff.tip_m < -0.009 && wanted.p.z() > 0.03);
+    stuff.m_per_s_n = stuff.tip_m < -0.01 && !freed ? 0 : 0.002;
+    hand.feel(stuff.force(wanted, 0.001));
+  }
+  EXPECT_TRUE(freed);
+  EXPECT_EQ(hand.given_up(), 0u);
+  EXPECT_NEAR(stuff.tip_m, -0.02, 0.0005);
 }
 
 // Slippery bone: z = slope x. The tip slides down it as it is pressed along z.

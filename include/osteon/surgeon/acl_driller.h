@@ -27,7 +27,8 @@ struct AclMove {
   Pose X_WT;              ///< kGo, kPress
   double m_per_s = 0.05;  ///< kGo; kPress: the fastest
   double force_n = 2;     ///< kPress, kLean
-  /// kWait: s; kPress, kLean: gives up after so many s; kPower, kJaw: 0 to 1
+  /// kWait: s; kPress, kLean: gives up after so many s, kPress after two more tries from far back;
+  /// kPower, kJaw: 0 to 1
   double value = 0;
   std::string instrument = {};  ///< kTake, as a tray names it
   bool exact = false;           ///< kPress: with less force as the end comes near
@@ -59,6 +60,7 @@ class AclDriller : public HandPlayer {
   void go(const AclMove& move, double dt_s);
   void press(const AclMove& move, double dt_s);
   bool is_stuck(double left_m, double dt_s);
+  bool tries_again(const AclMove& move, double left_m);
   void lean(const AclMove& move, double dt_s);
   void next();
 
@@ -73,7 +75,8 @@ class AclDriller : public HandPlayer {
   /// Of the kPress that goes on: what was left at its best, for how long it has been no better, how
   /// far it is still to be drawn back, and how often it was.
   double least_left_m_ = 0, stuck_s_ = 0, back_m_ = 0;
-  int drawn_back_ = 0;
+  int drawn_back_ = 0, last_tries_ = 0;
+  double longer_s_ = 0;  ///< than it was to take, for those
   Command next_;
   std::array<double, 3> phases_{};
 };
