@@ -104,7 +104,7 @@ TEST(AclDriller, WhatGoesNoFartherIsDrawnBackAndPressedAgain) {
 // What only a drill that comes from far back gets rid of.
 TEST(AclDriller, BeforeItIsGivenUpItComesFromFarBack) {
   auto moves = down_to(-0.02, 2, false);
-  moves.back().value = 8;
+  moves.back().value = 12;
   AclDriller hand(moves, expert_skill());
   SoftStuff stuff;
   bool freed = false;
