@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "../report_fixtures.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/build_case.h"
-#include "report_fixtures.h"
 
 namespace osteon {
 namespace {

@@ -1,4 +1,4 @@
-#include "tip_sight.h"
+#include "watch/tip_sight.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/marks_now.h"
 #include "osteon/scene/portal.h"
-#include "tip_sight.h"
+#include "watch/tip_sight.h"
 
 namespace osteon {
 namespace {

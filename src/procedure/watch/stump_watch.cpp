@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tip_sight.h"
+#include "watch/tip_sight.h"
 
 namespace osteon {
 

@@ -1,11 +1,11 @@
-#include "tip_sight.h"
+#include "watch/tip_sight.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <utility>
 
-#include "../mesh/shapes.h"
+#include "../../mesh/shapes.h"
 #include "osteon/scene/build_case.h"
 
 namespace osteon {

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "../mesh/shapes.h"
+#include "../../mesh/shapes.h"
 #include "osteon/scene/build_case.h"
 
 namespace osteon {
