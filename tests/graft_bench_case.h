@@ -45,6 +45,14 @@ inline CaseDef bench_def(bool fields = false) {
   return def;
 }
 
+/// The same with fascia over the tendons, opened along 6 to 42 mm between them.
+inline CaseDef covered_bench_def(bool fields = false) {
+  CaseDef def = bench_def(fields);
+  def.landmarks.push_back({"fascia_from", Vec3(0.006, 0, 0)});
+  def.landmarks.push_back({"fascia_to", Vec3(0.042, 0, 0)});
+  return def;
+}
+
 inline std::shared_ptr<const Case> bench_case(CaseDef def = bench_def()) {
   auto built = build_case(std::move(def));
   if (!built) return nullptr;

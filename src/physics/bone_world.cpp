@@ -75,7 +75,24 @@ void add_to(Hasher& hasher, const ToolGuide& guide) {
   if (guide.pulls) hasher.add(guide.pulls);
 }
 
+// Nothing where no fascia covers the tendons: what was recorded before there was any stays the
+// same.
+void add_fascia(Hasher& hasher, const GraftBenchState& bench) {
+  bool covered = bench.slit != kFasciaOpen || bench.hurt != 0;
+  for (const TendonOnBench& tendon : bench.tendons) covered = covered || !tendon.found;
+  for (const BenchHand& hand : bench.hands) covered = covered || hand.lifts != 0 || hand.slits != 0;
+  if (!covered) return;
+  hasher.add(bench.slit);
+  hasher.add(bench.hurt);
+  for (const TendonOnBench& tendon : bench.tendons) hasher.add(tendon.found);
+  for (const BenchHand& hand : bench.hands) {
+    hasher.add(hand.slits);
+    hasher.add(hand.lifts);
+  }
+}
+
 void add_to(Hasher& hasher, const GraftBenchState& bench) {
+  add_fascia(hasher, bench);
   for (const TendonOnBench& tendon : bench.tendons) {
     hasher.add(tendon.bands_cut);
     hasher.add(tendon.front_m);

@@ -19,6 +19,9 @@ Eigen::Vector4f bench_color(BenchRod::Is is) {
   using Is = BenchRod::Is;
   if (is == Is::kTendon) return {0.93f, 0.90f, 0.84f, 1.0f};
   if (is == Is::kUnderSkin) return {0.66f, 0.46f, 0.40f, 1.0f};
+  if (is == Is::kFascia) return {0.84f, 0.80f, 0.78f, 1.0f};
+  if (is == Is::kSlit) return {0.42f, 0.13f, 0.12f, 1.0f};
+  if (is == Is::kMark) return {0.24f, 0.20f, 0.52f, 1.0f};
   if (is == Is::kMuscle) return {0.58f, 0.20f, 0.18f, 1.0f};
   if (is == Is::kBand) return {0.72f, 0.42f, 0.36f, 1.0f};
   if (is == Is::kThread) return placing_color(PlacingRod::Is::kThread);

@@ -134,8 +134,8 @@ void WorldHalf::show_loose() {
 void WorldHalf::set_bench(std::vector<BenchTool> tray) {
   auto plan = find_graft_bench(*the_case_);
   if (!plan) return;
+  world_.set_bench(fresh_bench(*plan));
   bench_ = std::make_unique<GraftBenchWork>(std::move(*plan), std::move(tray), step_s_);
-  world_.set_bench(GraftBenchWork::begin());
 }
 
 void WorldHalf::set_placing(std::vector<PlacingTool> tray) {

@@ -27,6 +27,8 @@ constexpr double kStrokeFrom_m = 0.006, kStrokeTo_m = 0.026, kStroke_m_per_s = 0
 constexpr int kStrokes = 2;  // and back
 constexpr std::uint32_t kPasses = 5, kTooFewPasses = 2;
 constexpr double kHang_s = 1.5, kTooWide_m = 0.001;
+constexpr double kShortOfMark_m = 0.001, kLiftOut_m = 0.020;
+constexpr double kBehindMark_m = 0.022, kThroughFascia_m = 0.012;
 const Vec3 kHandBegins(-0.03, 0.16, 0.06);  // from where the graft begins
 const Vec3 kComes(-0.03, 0.16, 0.25);       // high over all that lies there
 const Vec3 kOverKnee(0, 0, 0.45);           // from the joint's middle
@@ -48,13 +50,13 @@ struct GraftHabits {
   double size_m = 0;
 };
 
-constexpr std::array<std::string_view, 6> kGraftFaults{"amputated_tendon", "unflipped_button",
-                                                       "long_loop",        "slack_graft",
-                                                       "muscle_left",      "few_stitches"};
+constexpr std::array<std::string_view, 8> kGraftFaults{
+    "mcl_cut",   "nerve_cut",   "amputated_tendon", "unflipped_button",
+    "long_loop", "slack_graft", "muscle_left",      "few_stitches"};
 // Of a whole reconstruction.
-constexpr std::array<std::string_view, 9> kFaultsInKnee{
-    "incision_aside", "incision_deep", "amputated_tendon", "muscle_left", "few_stitches",
-    "slack_graft",    "short_loop",    "long_loop",        "wide_tunnel"};
+constexpr std::array<std::string_view, 11> kFaultsInKnee{
+    "incision_aside", "incision_deep", "mcl_cut",    "nerve_cut", "amputated_tendon", "muscle_left",
+    "few_stitches",   "slack_graft",   "short_loop", "long_loop", "wide_tunnel"};
 
 // As few strands as make it thick enough; of those that are long enough.
 GraftHabits graft_habits(const GraftBenchPlan& plan, const std::string& fault) {
@@ -119,6 +121,44 @@ void fold_tendon(HandWay& way, const GraftBenchPlan& plan, std::size_t tendon,
   way.jaw(1);
   over(way, plan, post, back);
   way.jaw(0);
+}
+
+// Along the fascia's mark, `aside_m` from it, pressed so far into it.
+void slit_fascia(HandWay& way, const GraftBenchPlan& plan, double aside_m, double in_m) {
+  const Vec3 aside = aside_m * plan.fascia_across_W(), up = plan.fascia_up_W();
+  const Vec3 short_of = kShortOfMark_m * plan.fascia_along_W();
+  const Vec3 from = plan.fascia_from_W + aside + short_of, to = plan.fascia_to_W + aside - short_of;
+  over(way, plan, from, kUpright);
+  way.go(held_by_shaft(from + 0.005 * up, kUpright), kHandCarry_m_per_s);
+  way.go(held_by_shaft(from - in_m * up, kUpright), kHandNear_m_per_s);
+  way.go(held_by_shaft(to - in_m * up, kUpright), kDraw_m_per_s);
+  way.go(held_by_shaft(to + 0.010 * up, kUpright), kHandNear_m_per_s);
+}
+
+void lift_out(HandWay& way, const GraftBenchPlan& plan, std::size_t tendon) {
+  const Vec3 at = found_at_W(plan, tendon), up = plan.fascia_up_W();
+  over(way, plan, at, kUpright);
+  way.jaw(1);
+  way.go(held_by_shaft(at, kUpright), kHandNear_m_per_s);
+  way.jaw(0);
+  way.stay(kTaken_s);
+  way.go(held_by_shaft(at + kLiftOut_m * up, kUpright), kHandNear_m_per_s);
+  way.stay(kAtEnd_s);
+  way.jaw(1);
+  over(way, plan, at, kUpright);
+  way.jaw(0);
+}
+
+// The fascia is opened and both tendons are lifted out of it.
+void find_tendons(HandWay& way, const GraftBenchPlan& plan, const GraftHabits& habits) {
+  if (!plan.is_covered()) return;
+  if (habits.fault == "nerve_cut") slit_fascia(way, plan, kBehindMark_m, kBladeIn_m);
+  slit_fascia(way, plan, 0, habits.fault == "mcl_cut" ? kThroughFascia_m : kBladeIn_m);
+  over(way, plan, plan.fascia_to_W, kUpright);
+  way.take("clamp");
+  for (std::size_t t = 0; t < kGraftTendons; ++t) lift_out(way, plan, t);
+  over(way, plan, plan.fascia_to_W, kUpright);
+  way.take("scalpel_15");
 }
 
 void harvest(HandWay& way, const GraftBenchPlan& plan, const GraftHabits& habits) {
@@ -187,6 +227,7 @@ void size_graft(HandWay& way, const GraftBenchPlan& plan, double size_m) {
 
 // Tendons out, folded, sized.
 void make_graft(HandWay& way, const GraftBenchPlan& plan, const GraftHabits& habits) {
+  find_tendons(way, plan, habits);
   harvest(way, plan, habits);
   prepare_tendons(way, plan, habits);
   over(way, plan, plan.tendons[0].free_W, kUpright);

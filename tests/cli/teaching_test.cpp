@@ -104,8 +104,11 @@ INSTANTIATE_TEST_SUITE_P(Shipped, EachExercise, ::testing::ValuesIn(shipped_exer
 // A burr once stood still in its own cut on this patient.
 TEST_F(Teaching, ABurrGoesOnAsLongAsItCuts) { expect_expert_passes("fast_meniscectomy", 2); }
 
+// Those on a patient's knee, which take long to open, are played by tests of their own.
 TEST_F(Teaching, ScenariosThatAreShippedAreSound) {
   for (const TeachJson& scenario : json_of("scenario list --json")) {
+    const bool is_played = std::string(scenario["name"]).starts_with("acl");
+    if (is_played && !std::getenv("OSTEON_LONG")) continue;
     const Ran check = run_osteon("scenario check " + std::string(scenario["name"]));
     EXPECT_EQ(check.exit_code, 0) << check.output;
   }
@@ -171,8 +174,8 @@ TEST_F(Teaching, WhoDrillsBadlyFailsWithThatError) {
 
 TEST_F(Teaching, AReconstructionIsExplainedAndWantsAKneeWithItsLandmarks) {
   const TeachJson info = json_of("scenario info acl --json");
-  EXPECT_EQ(info["stages"].size(), 21u);
-  EXPECT_EQ(info["errors"].size(), 38u);
+  EXPECT_EQ(info["stages"].size(), 22u);
+  EXPECT_EQ(info["errors"].size(), 40u);
   EXPECT_EQ(run_osteon("run acl --case builtin:wrist --no-store").exit_code, 2);
   EXPECT_EQ(run_osteon("run acl --seed 1 --surgeon bad:nothing --no-store").exit_code, 2);
 }

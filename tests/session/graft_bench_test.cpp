@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -112,7 +113,7 @@ TEST(SessionBench, AStateFromBeforeTableWorkIsReadAsClean) {
     tendon.scraped_m = kScrapedClean_m;
     tendon.stitches = (1u << kMostStitches) - 1;
   }
-  // Nor was any tip known to be in anything.
+  // Nor did fascia cover any, or was any tip known to be in anything.
   state.world.bones.inside = {};
   state.hands[0].watch.inside = {};
   const Inside fat{SubjectKind::kSoftPart, 0, 1, 1, 0};
@@ -121,20 +122,105 @@ TEST(SessionBench, AStateFromBeforeTableWorkIsReadAsClean) {
   for (std::size_t t = 0; t < kGraftTendons; ++t) {
     note([&](SessionState& s) { s.world.bones.bench.tendons[t].scraped_m = 0; });
     note([&](SessionState& s) { s.world.bones.bench.tendons[t].stitches = 0; });
+    note([&](SessionState& s) { s.world.bones.bench.tendons[t].found = false; });
   }
   for (std::size_t h = 0; h < kBenchHands; ++h) {
     note([&](SessionState& s) { s.world.bones.bench.hands[h].scrapes = 1; });
+    note([&](SessionState& s) { s.world.bones.bench.hands[h].slits = 1; });
+    note([&](SessionState& s) { s.world.bones.bench.hands[h].lifts = 1; });
     note([&](SessionState& s) { s.world.bones.inside[h][0] = fat; });
   }
   note([&](SessionState& s) { s.hands[0].watch.inside[0] = fat; });
+  note([&](SessionState& s) { s.world.bones.bench.slit = 0; });
+  note([&](SessionState& s) { s.world.bones.bench.hurt = 1; });
   std::sort(words.rbegin(), words.rend());
   std::string old = to_bytes(state);
   for (const std::size_t at : words) old.erase(at, 8);
-  ASSERT_EQ(old[0], 37);
+  ASSERT_EQ(old[0], 38);
   old[0] = 24;
   const auto read = state_from_bytes(old);
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_EQ(to_bytes(*read), to_bytes(state));
+}
+
+// A clamp sets on over the gracilis where the fascia is open, shuts, and is drawn up 20 mm.
+HandInput lift_hand(std::uint64_t n) {
+  const double t = static_cast<double>(n) * 0.001;
+  const double z = t < 0.4 ? 0.006 * (1 - t / 0.4) : t < 1 ? 0 : std::min(0.020, 0.02 * (t - 1));
+  HandInput hand;
+  hand.input.X_WD = {Vec3(0.024, -0.012, z), Quat::Identity()};
+  if (n == 100) hand.command = {CommandKind::kJaw, 1};
+  if (n == 500) hand.command = {CommandKind::kJaw, 0};
+  return hand;
+}
+
+TEST(SessionBench, TheHandFeelsATendonThatItLiftsOutOfTheFascia) {
+  BenchSession rig;
+  const auto covered = testing::bench_case(testing::covered_bench_def(true));
+  rig.settings.tray = {"clamp"};
+  const auto all = load_instruments();
+  ASSERT_TRUE(all);
+  const Instrument* clamp = find_instrument(*all, "clamp");
+  rig.tray = {std::make_shared<const Tool>(make_tool(*clamp, clamp->usual_size))};
+  Session session(covered, rig.settings, rig.tray);
+  SessionState open = session.save();
+  open.world.bones.bench.slit = kFasciaOpen;
+  ASSERT_TRUE(session.restore(open));
+  double last = 0, most_step = 0, most = 0;
+  for (std::uint64_t n = 1; n <= 3000; ++n) {
+    const HandInput hand = lift_hand(n);
+    (void)session.tick(std::span(&hand, 1));
+    const double down = -session.tool_state().force_W.z();
+    if (n > 1000) most_step = std::max(most_step, std::abs(down - last));
+    most = std::max(most, down);
+    last = down;
+  }
+  EXPECT_TRUE(gracilis(session).found);
+  EXPECT_FALSE(session.bones().bench.tendons[0].found);
+  EXPECT_GT(most, 1.5);
+  EXPECT_LT(most, 4);
+  EXPECT_LT(most_step, 0.1) << "without steps";
+}
+
+// A blade is pressed on the fascia and drawn along it.
+HandInput slit_hand(std::uint64_t n) {
+  const double t = static_cast<double>(n) * 0.001;
+  const double down = -std::min(0.003, 0.01 * t) + 0.001;
+  HandInput hand;
+  hand.input.X_WD = {Vec3(0.008 + 0.02 * std::max(0.0, t - 0.4), 0, down), Quat::Identity()};
+  return hand;
+}
+
+TEST(SessionBench, FasciaThatIsOpenedRepeatsAndIsKept) {
+  BenchSession rig;
+  const auto covered = testing::bench_case(testing::covered_bench_def(true));
+  rig.settings.tray = {"scalpel_15"};
+  const auto all = load_instruments();
+  ASSERT_TRUE(all);
+  const Instrument* blade = find_instrument(*all, "scalpel_15");
+  rig.tray = {std::make_shared<const Tool>(make_tool(*blade, blade->usual_size))};
+  rig.recording.header = recording_header(*covered, rig.settings, "test", "0", rig.tray);
+  Session session(covered, rig.settings, rig.tray);
+  const auto plan = find_graft_bench(*covered);
+  ASSERT_TRUE(plan);
+  for (std::uint64_t n = 1; n <= 1500; ++n) {
+    const HandInput hand = slit_hand(n);
+    (void)session.tick(std::span(&hand, 1));
+    rig.recording.ticks.push_back(session.last_tick_record());
+    if (session.last_steps() > 0) rig.recording.steps.push_back(session.last_step_record());
+    if (n % 300 != 0) continue;
+    const auto read = state_from_bytes(to_bytes(session.save()));
+    ASSERT_TRUE(read) << n << " " << std::hex << session.bones().bench.slit;
+    EXPECT_EQ(read->world.bones.bench.slit, session.bones().bench.slit);
+  }
+  EXPECT_NEAR(fascia_open_m(*plan, session.bones().bench), 0.022, 0.002);
+  EXPECT_EQ(session.bones().bench.hurt, 0u);
+  rig.recording.complete = true;
+  ReplayOptions options;
+  options.tray = rig.tray;
+  const auto again = replay(rig.recording, covered, options);
+  ASSERT_TRUE(again) << again.error().message();
+  EXPECT_TRUE(again->identical) << again->first_different_tick;
 }
 
 TEST(SessionBench, ARecordingRepeatsAndARestorePointPutsTheFrontBack) {

@@ -155,7 +155,7 @@ TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   without.contact.core = Vec3::Zero();
   without.radius_m = 0;
   std::string bytes = to_bytes(state);
-  ASSERT_EQ(bytes[0], 37);
+  ASSERT_EQ(bytes[0], 38);
   const std::size_t core = first_other(bytes, with_hand(state, other_core));
   const std::size_t radius = first_other(bytes, with_hand(state, other_radius));
   const std::size_t wound = first_other(bytes, with_hand(state, in_wound));

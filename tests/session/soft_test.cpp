@@ -279,7 +279,7 @@ TEST(Soft, AStateFromBeforeFrictionIsReadWithoutIt) {
   Session session = run.session();
   press_to(session, 1, 301, 0.006);
   std::string bytes = without_water(session.save());
-  ASSERT_EQ(bytes[0], 37);
+  ASSERT_EQ(bytes[0], 38);
   bytes[0] = 8;
   erase_rub(bytes, session.save());
   const auto back = state_from_bytes(bytes);
@@ -323,7 +323,7 @@ TEST(Soft, AStateFromBeforeSolidsIsReadWithoutThem) {
   const std::string with_bench = without_water(saved);
   constexpr std::size_t kWord = 8, kTouch = 6;
   constexpr std::size_t kSolids = kMaxSolids + kMaxHands * (2 + kMaxSolids * kTouch);
-  ASSERT_EQ(bytes[0], 37);
+  ASSERT_EQ(bytes[0], 38);
   bytes[0] = 6;
   bytes.erase(bytes.size() - (kWordsAfterSofts + kSolids) * kWord, kSolids * kWord);
   // Nor was there a bench: the word that says so is where the two differ first.

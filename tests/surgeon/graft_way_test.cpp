@@ -56,6 +56,34 @@ std::size_t shut_with(const ProbePath& path, const std::string& instrument) {
   return shut;
 }
 
+// Where fascia covers them.
+TEST(GraftWay, OpensTheFasciaAndLiftsBothTendonsOrHurtsWhatLiesByIt) {
+  const auto covered = bench_case(testing::covered_bench_def());
+  const auto bare = plan_graft(*bench_case(), expert_skill());
+  const auto good = plan_graft(*covered, expert_skill());
+  const auto deep = plan_graft(*covered, graft_fault("mcl_cut"));
+  const auto beside = plan_graft(*covered, graft_fault("nerve_cut"));
+  ASSERT_TRUE(bare && good && deep && beside);
+  // Jaws shut on each tendon once more, and once to close after it.
+  EXPECT_EQ(shut_with(*good, "clamp"), shut_with(*bare, "clamp") + 4);
+  const auto least = [](const ProbePath& path, int axis) {
+    double out = 1;
+    for (const PathSample& sample : path.samples)
+      if (sample.time_s < 15) out = std::min(out, sample.X_WD.p[axis]);
+    return out;
+  };
+  EXPECT_LT(least(*deep, 2), least(*good, 2) - 0.006);
+  const auto drawn_behind = [](const ProbePath& path) {
+    for (const PathSample& sample : path.samples)
+      if (sample.X_WD.p.z() < 0 && sample.X_WD.p.x() > 0.03 && sample.X_WD.p.x() < 0.045 &&
+          sample.X_WD.p.y() < -0.018 && sample.X_WD.p.y() > -0.030)
+        return true;
+    return false;
+  };
+  EXPECT_TRUE(drawn_behind(*beside));
+  EXPECT_FALSE(drawn_behind(*good));
+}
+
 TEST(GraftWay, ScrapesAndStitchesBothTendonsOrForgetsTo) {
   const auto good = plan_graft(*bench_case(), expert_skill());
   const auto dirty = plan_graft(*bench_case(), graft_fault("muscle_left"));

@@ -17,11 +17,12 @@ struct BenchTool {
   double size_m = 0;  ///< bore of a sizer, length of a loop
 };
 
-/// Making a graft at a bench: bands are cut by a blade that is drawn over them, tendons stripped,
-/// their muscle scraped off by a blade's strokes over the table beside their free ends, thread put
-/// through those by a needle holder that shuts there, tendons carried and folded by a clamp, sized,
-/// pulled on a board and hung on a button. A function of its state and the tools' states; a step
-/// allocates nothing.
+/// Making a graft at a bench: fascia is opened by a blade that is drawn along it, tendons are
+/// lifted out from under it by a clamp that shuts on them in the slit and is drawn up, bands are
+/// cut by a blade that is drawn over them, tendons stripped, their muscle scraped off by a blade's
+/// strokes over the table beside their free ends, thread put through those by a needle holder that
+/// shuts there, tendons carried and folded by a clamp, sized, pulled on a board and hung on a
+/// button. A function of its state and the tools' states; a step allocates nothing.
 ///
 /// Guided one-dimensional model. An instrument that is pushed along a line stays on it, as in a
 /// hole, and the line's front stops it. F, its push along the line; R(s), the resistance at the
@@ -52,7 +53,6 @@ class GraftBenchWork {
   const std::array<ToolGuide, kMaxHands>& guides() const { return guides_; }
   const GraftBenchPlan& plan() const { return plan_; }
 
-  static GraftBenchState begin();
   /// As it was then; what hands were doing is over.
   static GraftBenchState gone_back(const GraftBenchState& kept);
 

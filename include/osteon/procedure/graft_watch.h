@@ -35,6 +35,14 @@ inline constexpr EventKind kMuscleScraped{465};
 /// Thread went through a tendon's end: {passes, of the tendon that has fewer; 0; 0}.
 inline constexpr EventKind kTendonStitched{466};
 
+/// The fascia over the tendons was opened farther: {its longest open stretch mm; 0; 0}.
+inline constexpr EventKind kFasciaOpened{475};
+/// A tendon was lifted out from under the fascia: {tendons found; 0; 0}.
+inline constexpr EventKind kTendonFound{476};
+/// A blade on the fascia hurt what lies by it: {0: the medial collateral ligament, 1: the saphenous
+/// nerve; 0; 0}.
+inline constexpr EventKind kByFasciaHurt{477};
+
 /// What is measured of a graft.
 enum class GraftValue : std::uint8_t {
   kDiameter,
@@ -73,6 +81,7 @@ class GraftWatch {
  private:
   void tell(std::uint64_t tick, EventKind kind, std::array<double, 3> values,
             std::vector<Event>& out) const;
+  void tell_finding(std::uint64_t tick, const GraftBenchState& now, std::vector<Event>& out) const;
   void tell_tendons(std::uint64_t tick, const GraftBenchState& now, std::vector<Event>& out) const;
   void tell_table_work(std::uint64_t tick, const GraftBenchState& now,
                        std::vector<Event>& out) const;

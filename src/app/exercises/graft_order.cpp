@@ -27,9 +27,9 @@ bool asks_for_graft(const ScenarioPlan& plan) {
 }
 
 bool is_at_bench(const ScenarioStage& stage) {
-  constexpr std::array<std::string_view, 7> kOfBench{
-      "tendons_stripped", "muscle_off",      "tendons_stitched", "graft_folded",
-      "graft_sized",      "graft_tensioned", "loop_hung"};
+  constexpr std::array<std::string_view, 9> kOfBench{
+      "fascia_opened", "tendons_found", "tendons_stripped", "muscle_off", "tendons_stitched",
+      "graft_folded",  "graft_sized",   "graft_tensioned",  "loop_hung"};
   return std::any_of(stage.goals.begin(), stage.goals.end(), [&](const Rule& goal) {
     return std::find(kOfBench.begin(), kOfBench.end(), goal.kind) != kOfBench.end();
   });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "graft/tendon_finding.h"
 #include "jaws.h"
 
 namespace osteon {
@@ -35,12 +36,6 @@ bool is_tendon(std::uint32_t line) { return line <= GraftBenchPlan::kGracilis; }
 GraftBenchWork::GraftBenchWork(GraftBenchPlan plan, std::vector<BenchTool> tray, double step_s)
     : plan_(std::move(plan)), tray_(std::move(tray)), step_s_(step_s) {}
 
-GraftBenchState GraftBenchWork::begin() {
-  GraftBenchState state;
-  state.on = true;
-  return state;
-}
-
 GraftBenchState GraftBenchWork::gone_back(const GraftBenchState& kept) {
   GraftBenchState state = kept;
   state.hands = {};
@@ -54,7 +49,9 @@ const BenchTool& GraftBenchWork::held(const ToolState& tool) const {
 
 bool GraftBenchWork::may_lead(const GraftBenchState& state, std::uint32_t line,
                               const BenchTool& tool) const {
-  if (is_tendon(line)) return tool.kind == BenchKind::kStripper && !state.tendons[line].stripped;
+  if (is_tendon(line))
+    return tool.kind == BenchKind::kStripper && state.tendons[line].found &&
+           !state.tendons[line].stripped;
   const bool folded = !in_knee_ && graft_on(plan_, state).has_value();
   if (line == GraftBenchPlan::kGraft) return tool.kind == BenchKind::kSizer && folded;
   return tool.kind == BenchKind::kClamp && folded;
@@ -192,7 +189,7 @@ void GraftBenchWork::draw_blade(std::size_t hand, const ToolState& tool,
     for (std::uint32_t b = 0; b < plan_.tendons[t].bands_W.size(); ++b) {
       const Vec3 off = tool.X_WP.p - plan_.tendons[t].bands_W[b];
       const std::uint32_t name = 1 + t * static_cast<std::uint32_t>(kMostBands) + b;
-      if (off.norm() > kNearBand_m) {
+      if (!state.tendons[t].found || off.norm() > kNearBand_m) {
         if (h.over == name) h.over = 0;
         continue;
       }
@@ -250,6 +247,9 @@ void GraftBenchWork::carry(std::size_t hand, const ToolState& tool, GraftBenchSt
   const bool shut = tool.jaw < kJawsShut;
   const bool shuts = shut && !h.shut, opens = !shut && h.shut;
   h.shut = shut;
+  if (shuts) take_tendon(plan_, tool, state, h);
+  if (opens) h.lifts = 0;
+  if (h.lifts != 0) lift_tendon(plan_, tool, step_s_, state, h);
   if (shuts && !in_knee_)
     for (std::uint32_t t = 0; t < kGraftTendons; ++t)
       if (state.tendons[t].stripped && (tool.X_WP.p - plan_.tendons[t].free_W).norm() < kNearEnd_m)
@@ -274,6 +274,12 @@ void GraftBenchWork::publish(std::size_t hand, const ToolState& tool, const Bone
   const BenchHand& h = state.hands[hand];
   ToolGuide& out = guides_[hand];
   out = {};
+  if (h.lifts != 0) {
+    const std::uint32_t thigh = plan_.bones[GraftBenchPlan::kSemitendinosus];
+    out = guide_of_lift(plan_, h, thigh, bones.bones[thigh].X_WB);
+    out.instrument = tool.instrument;
+    return;
+  }
   if (h.line == 0) return;
   const std::uint32_t line = h.line - 1, bone = plan_.bones[line];
   const Pose X_BW = bones.bones[bone].X_WB.inverse();
@@ -308,6 +314,10 @@ void GraftBenchWork::step(std::span<const ToolState* const> tools, const BoneSna
     if (kind == BenchKind::kBlade) {
       draw_blade(hand, tool, state);
       if (state.hands[hand].over == 0) scrape(hand, tool, state);
+      if (h.over == 0 && h.scrapes == 0)
+        open_fascia(plan_, tool, state, h);
+      else
+        h.slits = 0;
     }
     if (kind == BenchKind::kNeedle) stitch(hand, tool, state);
     if (kind == BenchKind::kClamp) carry(hand, tool, state);

@@ -9,7 +9,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::size_t kGraftFixedKinds = 9;
+constexpr std::size_t kGraftFixedKinds = 13;
 constexpr double kGraftMost = 1000;
 constexpr double kLeastSizer_mm = 1e3 * kLeastSizer_m, kStep_mm = 1e3 * kSizerStep_m;
 
@@ -58,6 +58,26 @@ std::vector<RuleKind> make_graft_table() {
        {{"least_s", 0, 36000, 60}},
        kOfNothing},
       {"loop_hung", "a button's loop hangs on the graft", true, {}, kOfNothing},
+      {"fascia_opened",
+       "the fascia over the tendons is open over the given length in one piece",
+       true,
+       {{"least_mm", 1, kGraftMost, 30}},
+       kOfNothing},
+      {"tendons_found",
+       "the given number of tendons has been lifted out from under the fascia",
+       true,
+       {{"least", 1, 2, 2}},
+       kOfNothing},
+      {"mcl_cut",
+       "a blade that opens the fascia is pressed so hard that it cuts the ligament under it",
+       false,
+       {},
+       kOfNothing},
+      {"nerve_cut",
+       "a blade is drawn over the nerve that runs behind the gracilis",
+       false,
+       {},
+       kOfNothing},
       {"tendon_amputated", "a stripper cut a tendon off at a band", false, {}, kOfNothing},
       {"button_stuck",
        "with this loop the graft meets the socket's end before the button can turn",
@@ -93,6 +113,10 @@ bool goal_holds(const std::string& kind, const PlannedRule& rule, const Event& e
   if (kind == "graft_sized") return event.kind == kGraftSized && is_sized(rule, event);
   if (kind == "graft_tensioned")
     return event.kind == kGraftTensioned && event.values[0] >= number_of(rule, "least_s");
+  if (kind == "fascia_opened")
+    return event.kind == kFasciaOpened && event.values[0] >= number_of(rule, "least_mm");
+  if (kind == "tendons_found")
+    return event.kind == kTendonFound && event.values[0] >= number_of(rule, "least");
   return kind == "loop_hung" && event.kind == kLoopHung;
 }
 
@@ -105,6 +129,8 @@ bool all_stripped(const PlannedRule& rule, const Event& event, RuleState& state)
 bool error_made(std::size_t place, const PlannedRule& rule, const Event& event) {
   const std::string& kind = rule.rule.kind;
   if (kind == "tendon_amputated") return event.kind == kTendonStripped && event.values[1] > 0;
+  if (kind == "mcl_cut") return event.kind == kByFasciaHurt && event.values[0] == 0;
+  if (kind == "nerve_cut") return event.kind == kByFasciaHurt && event.values[0] == 1;
   if (kind == "button_stuck") return event.kind == kLoopHung && event.values[2] == 0;
   if (event.kind != kGraftMeasured ||
       event.values[0] != static_cast<double>(place - kGraftFixedKinds))

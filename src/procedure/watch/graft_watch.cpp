@@ -31,7 +31,9 @@ double tenths(double share) { return std::floor(10 * share + 1e-9); }
 
 }  // namespace
 
-GraftWatch::GraftWatch(const Case& the_case) : plan_(find_graft_bench(the_case)) {}
+GraftWatch::GraftWatch(const Case& the_case) : plan_(find_graft_bench(the_case)) {
+  if (plan_) seen_ = fresh_bench(*plan_);
+}
 
 void GraftWatch::tell(std::uint64_t tick, EventKind kind, std::array<double, 3> values,
                       std::vector<Event>& out) const {
@@ -41,6 +43,22 @@ void GraftWatch::tell(std::uint64_t tick, EventKind kind, std::array<double, 3> 
   event.hand = 0;
   event.values = values;
   out.push_back(event);
+}
+
+void GraftWatch::tell_finding(std::uint64_t tick, const GraftBenchState& now,
+                              std::vector<Event>& out) const {
+  double found = 0;
+  bool more = false;
+  for (std::size_t t = 0; t < kGraftTendons; ++t) {
+    found += now.tendons[t].found ? 1 : 0;
+    more = more || (now.tendons[t].found && !seen_.tendons[t].found);
+  }
+  const double open_m = fascia_open_m(*plan_, now);
+  if (open_m > fascia_open_m(*plan_, seen_)) tell(tick, kFasciaOpened, {1e3 * open_m, 0, 0}, out);
+  if (more) tell(tick, kTendonFound, {found, 0, 0}, out);
+  for (std::uint32_t k = 0; k < 2; ++k)
+    if (((now.hurt & ~seen_.hurt) >> k & 1u) != 0)
+      tell(tick, kByFasciaHurt, {static_cast<double>(k), 0, 0}, out);
 }
 
 void GraftWatch::tell_tendons(std::uint64_t tick, const GraftBenchState& now,
@@ -120,6 +138,7 @@ void GraftWatch::set_room(const std::optional<GraftRoom>& room) {
 
 void GraftWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out) {
   if (!plan_ || !bones.bench.on) return;
+  tell_finding(tick, bones.bench, out);
   tell_tendons(tick, bones.bench, out);
   tell_table_work(tick, bones.bench, out);
   tell_graft(tick, bones.bench, out);

@@ -21,7 +21,10 @@ constexpr double kRidge_m = 0.0008;
 constexpr double kMuscle_m = 0.030;                       // of the free end, that a blade scrapes
 constexpr double kRow_m = 0.105, kBetweenRows_m = 0.012;  // of a tendon that is laid to and fro
 constexpr double kBandLong_m = 0.010, kBandRadius_m = 0.0012, kBandGap_m = 0.004;
-constexpr double kTail_m = 0.030;      // of thread, out of the strands
+constexpr double kTail_m = 0.030;  // of thread, out of the strands
+constexpr double kLip_m = 0.0026, kLipRadius_m = 0.0009, kInkRadius_m = 0.0007;
+constexpr double kSlitRadius_m = 0.0024, kSlitOver_m = 0.0003;  // sunk but for so much
+constexpr double kLoopHigh_m = 0.004, kLoopHalf_m = 0.014;      // of a tendon that was found
 constexpr double kFromLine_m = 0.004;  // the graft begins so far after its line
 constexpr int kRingPieces = 8;
 
@@ -47,6 +50,44 @@ void add_band(const Vec3& from, const Vec3& outward, bool cut, Rods& out) {
   out.push_back({Rod::kBand, from, from + half * outward, kBandRadius_m});
   out.push_back({Rod::kBand, from + (kBandLong_m - half) * outward, from + kBandLong_m * outward,
                  kBandRadius_m});
+}
+
+// Ink where the fascia is whole, two lips where it is open.
+void add_fascia(const GraftBenchPlan& plan, const GraftBenchState& s, Rods& out) {
+  if (!plan.is_covered()) return;
+  const Vec3 step = (plan.fascia_to_W - plan.fascia_from_W) / kFasciaCells;
+  const Vec3 lip = kLip_m * plan.fascia_across_W();
+  for (std::uint32_t k = 0, from = 0; k < kFasciaCells; ++k) {
+    const bool open = (s.slit >> k & 1u) != 0;
+    const bool goes_on = k + 1 < kFasciaCells && ((s.slit >> (k + 1) & 1u) != 0) == open;
+    if (goes_on) continue;
+    const Vec3 a = plan.fascia_from_W + from * step, b = plan.fascia_from_W + (k + 1) * step;
+    from = k + 1;
+    if (!open) {
+      out.push_back({Rod::kMark, a, b, kInkRadius_m});
+      continue;
+    }
+    for (const double side : {-1.0, 1.0})
+      out.push_back({Rod::kFascia, a + side * lip, b + side * lip, kLipRadius_m});
+    const Vec3 sunk = (kSlitOver_m - kSlitRadius_m) * plan.fascia_up_W();
+    out.push_back({Rod::kSlit, a + sunk, b + sunk, kSlitRadius_m});
+  }
+}
+
+// A tendon that was found lies in a loop out of the slit; jaws that hold it lift it.
+void add_loop(const GraftBenchPlan& plan, const GraftBenchState& s, std::size_t t, Rods& out) {
+  if (!plan.is_covered()) return;
+  double high = s.tendons[t].found ? kLoopHigh_m : 0;
+  Vec3 top = found_at_W(plan, t);
+  for (const BenchHand& hand : s.hands)
+    if (hand.lifts == 1 + t && hand.front_m > high) {
+      high = hand.front_m;
+      top = hand.from_W;
+    }
+  if (!(high > 0)) return;
+  const Vec3 along = kLoopHalf_m * plan.tendons[t].along_W;
+  const Vec3 points[] = {top - along, Vec3(top + high * plan.fascia_up_W()), top + along};
+  add_line(Rod::kTendon, points, radius_of(plan.tendons[t].measures.area_m2), out);
 }
 
 // In the thigh, from `from_m` on: its course shows through the skin, and what is freed lies open.
@@ -210,10 +251,12 @@ std::vector<BenchRod> bench_rods(const GraftBenchPlan& plan, const BoneSnapshot&
   const GraftBenchState& s = bones.bench;
   Rods out;
   if (!s.on) return out;
+  add_fascia(plan, s, out);
   for (std::size_t t = 0; t < kGraftTendons; ++t) {
     const TendonOnBench& is = s.tendons[t];
     const auto got = harvested(plan, s, t);
     if (!got) add_in_thigh(plan, t, is, 0, out);
+    if (!got) add_loop(plan, s, t, out);
     if (got && got->amputated) add_in_thigh(plan, t, is, got->length_m, out);
     if (got && is.folds == 0) add_on_table(plan, t, is, got->length_m, out);
   }

@@ -64,6 +64,19 @@ Vec3 GraftBenchPlan::end_W(std::uint32_t line) const {
   return tendon.insertion_W + tendon.measures.length_m * tendon.along_W;
 }
 
+Vec3 GraftBenchPlan::fascia_along_W() const { return (fascia_to_W - fascia_from_W).normalized(); }
+
+Vec3 GraftBenchPlan::fascia_across_W() const {
+  const Vec3 way = tendons[kGracilis].insertion_W - tendons[kSemitendinosus].insertion_W;
+  const Vec3 along = fascia_along_W();
+  return (way - way.dot(along) * along).normalized();
+}
+
+Vec3 GraftBenchPlan::fascia_up_W() const {
+  const Vec3 up = fascia_along_W().cross(fascia_across_W());
+  return up.dot(fascia_from_W - tendons[kSemitendinosus].insertion_W) < 0 ? Vec3(-up) : up;
+}
+
 std::optional<GraftBenchPlan> find_graft_bench(const Case& the_case) {
   GraftBenchPlan plan;
   const std::array<BoneId, 3> bones{the_case.find("thigh"), the_case.find("graft"),
@@ -84,6 +97,11 @@ std::optional<GraftBenchPlan> find_graft_bench(const Case& the_case) {
   plan.channel_m = (marks.at("channel_to") - channel).norm();
   plan.socket_m = (marks.at("socket_to") - channel).norm();
   if (!marks.all) return std::nullopt;
+  const auto from = marks.find("fascia_from"), to = marks.find("fascia_to");
+  if (from && to) {
+    plan.fascia_from_W = *from;
+    plan.fascia_to_W = *to;
+  }
   for (std::uint32_t line = 0; line < GraftBenchPlan::kLines; ++line)
     if (!((plan.end_W(line) - plan.begin_W(line)).norm() > 0.005)) return std::nullopt;
   return plan;
@@ -95,6 +113,30 @@ std::optional<HarvestedTendon> harvested(const GraftBenchPlan& plan, const Graft
   const TendonOnBench& is = state.tendons[tendon];
   return with_muscle(strip(plan.tendons[tendon].measures, is.amputated ? is.bands_cut : ~0u),
                      is.muscle_left());
+}
+
+GraftBenchState fresh_bench(const GraftBenchPlan& plan) {
+  GraftBenchState state;
+  state.on = true;
+  if (!plan.is_covered()) return state;
+  state.slit = 0;
+  for (TendonOnBench& tendon : state.tendons) tendon.found = false;
+  return state;
+}
+
+double fascia_open_m(const GraftBenchPlan& plan, const GraftBenchState& state) {
+  std::uint32_t run = 0, longest = 0;
+  for (std::uint32_t k = 0; plan.is_covered() && k < kFasciaCells; ++k) {
+    run = (state.slit >> k & 1u) != 0 ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest * plan.fascia_m() / kFasciaCells;
+}
+
+Vec3 found_at_W(const GraftBenchPlan& plan, std::size_t tendon) {
+  const Vec3 across = plan.fascia_across_W(),
+             middle = 0.5 * (plan.fascia_from_W + plan.fascia_to_W);
+  return middle + across.dot(plan.tendons[tendon].insertion_W - middle) * across;
 }
 
 double TendonOnBench::muscle_left() const {

@@ -4,6 +4,7 @@ namespace osteon::stored {
 namespace {
 
 constexpr std::uint64_t kTableWork = 25;  // that of muscle and thread on tendons
+constexpr std::uint64_t kFascia = 38;     // that of tendons that are found under it
 constexpr std::uint64_t kExams = 34;      // that of a knee that is examined
 constexpr std::uint64_t kOrders = 13;     // the version that says what graft was handed over
 
@@ -22,6 +23,7 @@ void field(A& a, TendonOnBench& t) {
   }
   field(a, t.scraped_m);
   number(a, t.stitches, (1u << kMostStitches) - 1);
+  if (since(a, kFascia)) field(a, t.found);
 }
 
 template <class A>
@@ -35,6 +37,9 @@ void field(A& a, BenchHand& h) {
   field(a, h.from_W);
   field(a, h.hangs);
   if (since(a, kTableWork)) number(a, h.scrapes, kGraftTendons);
+  if (!since(a, kFascia)) return;
+  number(a, h.slits, 2);
+  number(a, h.lifts, kGraftTendons);
 }
 
 template <class A>
@@ -45,6 +50,9 @@ void field(A& a, GraftBenchState& s) {
   for (TendonOnBench& tendon : s.tendons) field(a, tendon);
   for (BenchHand& hand : s.hands) field(a, hand);
   for (double* x : {&s.passed_m, &s.refused_m, &s.loop_m, &s.tension_n, &s.creep_s}) field(a, *x);
+  if (!since(a, kFascia)) return;  // nothing covered the tendons then
+  number(a, s.slit, kFasciaOpen);
+  number(a, s.hurt, kMclHurt | kNerveHurt);
 }
 
 template <class A>

@@ -13,7 +13,7 @@
 // over the direction: Out appends a word for each, In takes one and checks it.
 namespace osteon::stored {
 
-constexpr std::uint64_t kVersion = 37;
+constexpr std::uint64_t kVersion = 38;
 
 // Appends words. One list of fields serves both directions.
 struct Out {

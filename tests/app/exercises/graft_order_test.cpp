@@ -17,8 +17,8 @@ std::vector<Command> all_of(GraftOrder& order) {
 
 TEST(GraftOrder, StagesAtTheBenchAreLeftOutWhereTheGraftIsMade) {
   Scenario scenario;
-  for (const char* kind : {"seen", "skin_opened", "tendons_stripped", "graft_sized",
-                           "socket_drilled", "loop_hung", "thread_laid"}) {
+  for (const char* kind : {"seen", "skin_opened", "tendons_found", "tendons_stripped",
+                           "graft_sized", "socket_drilled", "loop_hung", "thread_laid"}) {
     scenario.stages.emplace_back();
     scenario.stages.back().name = kind;
     scenario.stages.back().goals.emplace_back();

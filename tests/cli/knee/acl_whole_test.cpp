@@ -27,7 +27,7 @@ class WholeAcl : public CliTest {
 TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
   const Json json = report("--seed 0 --record " + file("w.osr"), 0);
   EXPECT_TRUE(json["errors"].empty()) << json["errors"];
-  ASSERT_EQ(json["stages"].size(), 21u);
+  ASSERT_EQ(json["stages"].size(), 22u);
   for (const Json& stage : json["stages"]) {
     ASSERT_TRUE(stage["completed_s"].is_number()) << stage;
     EXPECT_LT(stage["completed_s"], 1500);
@@ -97,10 +97,11 @@ TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
 TEST_F(WholeAcl, EachBadSurgeonMakesHisErrorAlone) {
   if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG=1";
   for (const std::string name :
-       {"incision_aside", "incision_deep", "amputated_tendon", "muscle_left", "few_stitches",
-        "slack_graft", "short_loop", "long_loop", "wide_tunnel", "lost_thread", "unflipped_button",
-        "soft_tissue", "flipped_in_muscle", "few_cycles", "slack_tension", "diverging_screw",
-        "shallow_screw", "not_examined", "cleared_blind"}) {
+       {"incision_aside", "incision_deep", "mcl_cut",          "nerve_cut",     "amputated_tendon",
+        "muscle_left",    "few_stitches",  "slack_graft",      "short_loop",    "long_loop",
+        "wide_tunnel",    "lost_thread",   "unflipped_button", "soft_tissue",   "flipped_in_muscle",
+        "few_cycles",     "slack_tension", "diverging_screw",  "shallow_screw", "not_examined",
+        "cleared_blind"}) {
     const Json json = report("--seed 1 --surgeon bad:" + name, 1);
     ASSERT_EQ(json["errors"].size(), 1u) << name << json["errors"];
     EXPECT_EQ(json["errors"][0]["name"], name);

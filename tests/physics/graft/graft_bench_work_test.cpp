@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "graft_bench_case.h"
 
 #include "osteon/base/turn.h"
@@ -32,10 +34,11 @@ std::vector<BenchTool> bench_tray() {
 // A hand at a bench of which the haptic half is played: a tool that is pushed stands at its front,
 // with the force asked for.
 struct BenchRig {
-  BenchRig() : work(*find_graft_bench(*bench_case()), bench_tray(), 0.002) {
+  explicit BenchRig(CaseDef def = testing::bench_def())
+      : work(*find_graft_bench(*bench_case(std::move(def))), bench_tray(), 0.002) {
     bones.count = 3;
     for (std::size_t i = 0; i < 3; ++i) bones.bones[i].X_WB = bench_case()->bones[i].X_WB;
-    state = GraftBenchWork::begin();
+    state = fresh_bench(work.plan());
   }
   void step() {
     const ToolState* const tools[] = {&tool};
@@ -118,6 +121,46 @@ TEST(GraftBenchWork, ABladeThatIsNotPressedOrNotDrawnCutsNothing) {
   rig.tool.force_W = Vec3(0, 0, 0.5);
   for (int n = 0; n < 200; ++n) rig.at(Vec3(0.060, 0.012, 0));
   EXPECT_EQ(rig.state.tendons[0].bands_cut, 0u);
+}
+
+// Fascia opened, tendon lifted out, bands cut, stripped: nothing of it before what comes first.
+TEST(GraftBenchWork, ACoveredTendonIsFoundBeforeItsBandsAreCutAndItIsStripped) {
+  BenchRig rig(testing::covered_bench_def());
+  const auto cut_bands = [&] {
+    rig.hold(kBladeTool);
+    rig.tool.contact_count = 1;
+    rig.tool.force_W = Vec3(0, 0, 0.5);
+    for (const double x : {0.060, 0.085})
+      for (int n = -10; n <= 10; ++n) rig.at(Vec3(x, 0.012 + 0.0005 * n, 0));
+  };
+  cut_bands();
+  EXPECT_EQ(rig.state.tendons[0].bands_cut, 0u);
+  rig.hold(kStripperTool);
+  rig.at(rig.work.plan().begin_W(0));
+  EXPECT_EQ(rig.state.hands[0].line, 0u);
+  rig.hold(kBladeTool);
+  rig.tool.contact_count = 1;
+  rig.tool.force_W = Vec3(0, 0, 0.5);
+  for (int n = 0; n <= 70; ++n) rig.at(Vec3(0.007 + 0.0005 * n, 0, 0));
+  EXPECT_GT(fascia_open_m(rig.work.plan(), rig.state), 0.03);
+  rig.hold(kClampTool);
+  rig.tool.jaw = 1;
+  rig.at(found_at_W(rig.work.plan(), 0));
+  rig.tool.jaw = 0;
+  rig.at(found_at_W(rig.work.plan(), 0));
+  ASSERT_TRUE(rig.work.guides()[0].on && rig.work.guides()[0].pulls);
+  EXPECT_EQ(rig.work.guides()[0].instrument, kClampTool);
+  rig.tool.force_W = Vec3(0, 0, -2);
+  for (int n = 0; n < 1000; ++n) rig.step();
+  EXPECT_TRUE(rig.state.tendons[0].found);
+  rig.tool.jaw = 1;
+  rig.step();
+  EXPECT_FALSE(rig.work.guides()[0].on);
+  cut_bands();
+  EXPECT_EQ(rig.state.tendons[0].bands_cut, 0b11u);
+  rig.hold(kStripperTool);
+  rig.push(0, 3.5, 10);
+  EXPECT_TRUE(rig.state.tendons[0].stripped);
 }
 
 TEST(GraftBenchWork, AClampFoldsATendonAtAPost) {

@@ -43,6 +43,23 @@ TEST(GraftRules, BothTendonsAreCounted) {
   EXPECT_TRUE(rig.state.met);
 }
 
+TEST(GraftRules, FasciaAndTendonsUnderIt) {
+  GraftRuleRig open("fascia_opened"), found("tendons_found"), ligament("mcl_cut"),
+      nerve("nerve_cut");
+  open.hit(kFasciaOpened, {29, 0, 0});
+  EXPECT_FALSE(open.state.met);
+  open.hit(kFasciaOpened, {30, 0, 0});
+  EXPECT_TRUE(open.state.met);
+  found.hit(kTendonFound, {1, 0, 0});
+  EXPECT_FALSE(found.state.met);
+  found.hit(kTendonFound, {2, 0, 0});
+  EXPECT_TRUE(found.state.met);
+  EXPECT_FALSE(ligament.hit(kByFasciaHurt, {1, 0, 0}));
+  EXPECT_TRUE(ligament.hit(kByFasciaHurt, {0, 0, 0}));
+  EXPECT_FALSE(nerve.hit(kByFasciaHurt, {0, 0, 0}));
+  EXPECT_TRUE(nerve.hit(kByFasciaHurt, {1, 0, 0}));
+}
+
 TEST(GraftRules, MuscleAndThreadOfBothTendons) {
   GraftRuleRig muscle("muscle_off");
   muscle.hit(kMuscleScraped, {50, 0, 0});

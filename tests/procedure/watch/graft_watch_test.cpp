@@ -37,6 +37,35 @@ TEST(GraftWatch, TellsOnceWhatHappened) {
   EXPECT_TRUE(told_of(watch, state).empty());
 }
 
+TEST(GraftWatch, TellsOfFasciaOfTendonsThatAreFoundAndOfWhatIsHurt) {
+  const auto the_case = bench_case(testing::covered_bench_def());
+  GraftWatch watch(*the_case);
+  GraftBenchState state = fresh_bench(*find_graft_bench(*the_case));
+  EXPECT_TRUE(told_of(watch, state).empty());
+  state.slit = 0b111;
+  auto told = told_of(watch, state);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, kFasciaOpened);
+  EXPECT_NEAR(told[0].values[0], 3, 1e-9);
+  state.slit = 0b100111;  // no longer in one piece
+  EXPECT_TRUE(told_of(watch, state).empty());
+  state.tendons[1].found = true;
+  told = told_of(watch, state);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, kTendonFound);
+  EXPECT_EQ(told[0].values[0], 1);
+  state.tendons[0].found = true;
+  EXPECT_EQ(told_of(watch, state).at(0).values[0], 2);
+  state.hurt = kMclHurt;
+  told = told_of(watch, state);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, kByFasciaHurt);
+  EXPECT_EQ(told[0].values[0], 0);
+  state.hurt |= kNerveHurt;
+  EXPECT_EQ(told_of(watch, state).at(0).values[0], 1);
+  EXPECT_TRUE(told_of(watch, state).empty());
+}
+
 TEST(GraftWatch, MeasuresWhenTheLoopIsHung) {
   GraftWatch watch(*bench_case());
   GraftBenchState state = folded_bench(2, 2);

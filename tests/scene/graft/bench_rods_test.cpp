@@ -55,6 +55,33 @@ TEST_F(BenchRods, TendonsLieUnderTheSkinWithTheirBands) {
     }
 }
 
+TEST_F(BenchRods, FasciaIsMarkedUntilItIsOpenAndAFoundTendonLiesInALoop) {
+  plan = *find_graft_bench(*testing::bench_case(testing::covered_bench_def()));
+  GraftBenchState state = fresh_bench(plan);
+  auto all = rods(state);
+  EXPECT_NEAR(length(all, Is::kMark), 0.036, 1e-9);
+  EXPECT_EQ(count(all, Is::kFascia), 0u);
+  state.slit = (std::uint64_t{1} << 30) - 1;
+  all = rods(state);
+  EXPECT_NEAR(length(all, Is::kMark), 0.006, 1e-9);
+  EXPECT_NEAR(length(all, Is::kFascia), 2 * 0.030, 1e-9);
+  EXPECT_EQ(count(all, Is::kTendon), 0u);
+  const auto top = [&] {
+    double high = 0;
+    for (const BenchRod& rod : rods(state))
+      if (rod.is == Is::kTendon) high = std::max({high, rod.a_W.z(), rod.b_W.z()});
+    return high;
+  };
+  state.hands[1].lifts = 2;
+  state.hands[1].front_m = 0.008;
+  state.hands[1].from_W = found_at_W(plan, 1);
+  EXPECT_NEAR(top(), 0.008, 1e-9);
+  state.hands[1].lifts = 0;
+  EXPECT_EQ(top(), 0);
+  state.tendons[1].found = true;
+  EXPECT_NEAR(top(), 0.004, 1e-9);
+}
+
 TEST_F(BenchRods, ABandThatIsCutHasAGapAndWhatIsFreedLiesOpen) {
   GraftBenchState state = fresh();
   state.tendons[0].bands_cut = 0b10;

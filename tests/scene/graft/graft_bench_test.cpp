@@ -51,6 +51,36 @@ TEST(GraftBench, GivesWhatWasHarvestedAndFolded) {
   EXPECT_FALSE(harvested(*plan, GraftBenchState{}, 0));
 }
 
+TEST(GraftBench, FasciaIsThereWhereBothItsMarksAre) {
+  const auto bare = find_graft_bench(*bench_case());
+  ASSERT_TRUE(bare);
+  EXPECT_FALSE(bare->is_covered());
+  EXPECT_TRUE(fresh_bench(*bare).tendons[0].found);
+  EXPECT_EQ(fascia_open_m(*bare, fresh_bench(*bare)), 0);
+  CaseDef half = testing::covered_bench_def();
+  half.landmarks.pop_back();
+  EXPECT_FALSE(find_graft_bench(*bench_case(std::move(half)))->is_covered());
+  const auto plan = find_graft_bench(*bench_case(testing::covered_bench_def()));
+  ASSERT_TRUE(plan && plan->is_covered());
+  EXPECT_LT((plan->fascia_along_W() - Vec3::UnitX()).norm(), 1e-12);
+  EXPECT_LT((plan->fascia_across_W() + Vec3::UnitY()).norm(), 1e-12) << "to the gracilis";
+  EXPECT_LT((plan->fascia_up_W() - Vec3::UnitZ()).norm(), 1e-12);
+  EXPECT_LT((found_at_W(*plan, 0) - Vec3(0.024, 0.012, 0)).norm(), 1e-12);
+  EXPECT_LT((found_at_W(*plan, 1) - Vec3(0.024, -0.012, 0)).norm(), 1e-12);
+}
+
+TEST(GraftBench, TheLongestOpenStretchOfTheFasciaCounts) {
+  const auto plan = find_graft_bench(*bench_case(testing::covered_bench_def()));
+  ASSERT_TRUE(plan);
+  GraftBenchState state = fresh_bench(*plan);
+  EXPECT_FALSE(state.tendons[0].found || state.tendons[1].found);
+  EXPECT_EQ(fascia_open_m(*plan, state), 0);
+  state.slit = 0b0111011;
+  EXPECT_NEAR(fascia_open_m(*plan, state), 0.003, 1e-12);
+  state.slit = kFasciaOpen;
+  EXPECT_NEAR(fascia_open_m(*plan, state), 0.036, 1e-12);
+}
+
 TEST(GraftBench, MuscleThatIsLeftMakesTheGraftThicker) {
   const auto plan = find_graft_bench(*testing::bench_case());
   ASSERT_TRUE(plan);

@@ -24,7 +24,7 @@ namespace osteon {
 namespace {
 
 // Places that an outside view goes to from the joint.
-constexpr const char *kAtBench = "bench", *kAtSkin = "skin";
+constexpr const char *kAtBench = "bench", *kAtFascia = "fascia", *kAtSkin = "skin";
 
 constexpr double kRoomMoves_m = 0.015;  // of the tip, before the joint's wall is shaped anew
 
@@ -213,7 +213,12 @@ std::string FilmPainter::Impl::place_outside(const FilmMoment& moment) {
   const auto& blades = moment.bones.softs.skin.blades;
   if (std::any_of(blades.begin(), blades.end(), [](const SkinBlade& blade) { return blade.in; }))
     at_skin_until_s = moment.time_s + kStays_s;
-  if (looks_at_bench(moment)) return kAtBench;
+  if (looks_at_bench(moment)) {
+    const auto& tendons = moment.bones.bench.tendons;
+    const bool found = std::all_of(tendons.begin(), tendons.end(),
+                                   [](const TendonOnBench& tendon) { return tendon.found; });
+    return found ? kAtBench : kAtFascia;
+  }
   return X_WSite && moment.time_s < at_skin_until_s ? kAtSkin : "";
 }
 
@@ -234,7 +239,8 @@ const ViewState& FilmPainter::Impl::outside_view(double aspect, const std::strin
   if (looked_outside && looked_outside->aspect == aspect && looked_outside->side == place)
     return looked_outside->view;
   ViewState view = plain_view(aspect);
-  if (place == kAtBench) view.camera = bench_camera(view.camera, *bench, aspect);
+  if (place == kAtBench || place == kAtFascia)
+    view.camera = bench_camera(view.camera, *bench, aspect, place == kAtFascia);
   if (place == kAtSkin) view.camera = skin_camera(view.camera, *X_WSite);
   if (felt_skin) {
     view.softs[*felt_skin].visible = true;

@@ -69,7 +69,8 @@ std::vector<Vec3> points_on(const GraftBenchPlan& bench) {
 
 }  // namespace
 
-Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspect) {
+Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspect,
+                    bool near_fascia) {
   if (!(aspect > 0)) return from;
   // Tendons run away from who works there.
   Vec3 back = -bench.tendons[0].along_W;
@@ -77,7 +78,11 @@ Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspe
   if (!is_finite(back) || back.norm() < 1e-4) back = -Vec3::UnitX();
   const Vec3 view_from =
       std::cos(kBenchUp_rad) * back.normalized() + std::sin(kBenchUp_rad) * Vec3::UnitZ();
-  return look_from(from, view_from, points_on(bench), aspect);
+  if (!near_fascia || !bench.is_covered())
+    return look_from(from, view_from, points_on(bench), aspect);
+  const std::vector<Vec3> points{bench.fascia_from_W, bench.fascia_to_W,
+                                 bench.tendons[0].insertion_W, bench.tendons[1].insertion_W};
+  return look_from(from, view_from, points, aspect);
 }
 
 Camera skin_camera(const Camera& from, const Pose& X_WS) {

@@ -15,8 +15,9 @@ Camera side_camera(const Camera& from, std::span<const Vec3> portals_W,
                    std::span<const Vec3> places_W, double aspect);
 
 /// A look from above at the table of a bench and at the bands before it, as who works there sees
-/// it.
-Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspect);
+/// it. `near_fascia`: nearer, at where tendons are found.
+Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspect,
+                    bool near_fascia = false);
 /// A look at skin that is to be cut, from near and a little aslant. `X_WS`: z out of it, y upwards
 /// in the picture.
 Camera skin_camera(const Camera& from, const Pose& X_WS);

@@ -17,10 +17,15 @@ GraftJson tendon_json(const GraftReport& report, std::size_t t) {
   const TendonOnBench& is = report.state.tendons[t];
   const TendonMeasures& measures = report.plan.tendons[t].measures;
   const auto out = harvested(report.plan, report.state, t);
-  GraftJson json{{"name", kTendonTitles[t]},           {"length_mm", 1e3 * measures.length_m},
-                 {"area_mm2", 1e6 * measures.area_m2}, {"harvested_mm", nullptr},
-                 {"amputated", is.amputated},          {"strands", is.folds},
-                 {"muscle_left_pct", nullptr},         {"stitches", is.passes()}};
+  GraftJson json{{"name", kTendonTitles[t]},
+                 {"length_mm", 1e3 * measures.length_m},
+                 {"area_mm2", 1e6 * measures.area_m2},
+                 {"harvested_mm", nullptr},
+                 {"amputated", is.amputated},
+                 {"strands", is.folds},
+                 {"muscle_left_pct", nullptr},
+                 {"stitches", is.passes()},
+                 {"found", is.found}};
   if (out) json["harvested_mm"] = 1e3 * out->length_m;
   if (out) json["muscle_left_pct"] = 100 * is.muscle_left();
   return json;
@@ -44,6 +49,7 @@ Result<double> number_in(const nlohmann::json& json, const char* key, double mos
 GraftJson to_json(const GraftReport& report) {
   GraftJson json;
   json["tendons"] = GraftJson::array({tendon_json(report, 0), tendon_json(report, 1)});
+  if (report.plan.is_covered()) json["fascia_mm"] = 1e3 * fascia_open_m(report.plan, report.state);
   json["channel_mm"] = 1e3 * report.plan.channel_m;
   json["socket_mm"] = 1e3 * report.plan.socket_m;
   const auto graft = graft_on(report.plan, report.state);

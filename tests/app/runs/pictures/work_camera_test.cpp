@@ -77,6 +77,11 @@ TEST(WorkCamera, ABenchIsSeenFromAboveAndFromWhereTheOperatorIs) {
               (X_CW * bench->tendons[0].insertion_W).y());
   }
   Camera camera;
+  EXPECT_EQ(bench_camera(camera, *bench, 1.8, true), bench_camera(camera, *bench, 1.8));
+  const auto covered = find_graft_bench(*testing::bench_case(testing::covered_bench_def()));
+  const Camera near = bench_camera(camera, *covered, 1.8, true);
+  EXPECT_LT(near.distance_m, 0.5 * bench_camera(camera, *covered, 1.8).distance_m);
+  EXPECT_LT((near.target_W - covered->fascia_from_W).norm(), 0.03);
   EXPECT_EQ(bench_camera(camera, *bench, 0), camera);
 }
 

@@ -470,7 +470,7 @@ void ExerciseControl::show_skin() {
 }
 
 ExerciseControl::WorkPlace ExerciseControl::place_of_work() const {
-  if (exercise_.at_bench()) return WorkPlace::kBench;
+  if (exercise_.at_bench()) return exercise_.at_fascia() ? WorkPlace::kFascia : WorkPlace::kBench;
   return exercise_.at_incision() ? WorkPlace::kSkin : WorkPlace::kJoint;
 }
 
@@ -478,9 +478,9 @@ ExerciseControl::WorkPlace ExerciseControl::place_of_work() const {
 std::optional<Camera> ExerciseControl::camera_at(WorkPlace place) const {
   const Case& the_case = *scene_.the_case;
   const Camera& from = sight_.view().camera;
-  if (place == WorkPlace::kBench) {
+  if (const bool near = place == WorkPlace::kFascia; near || place == WorkPlace::kBench) {
     const auto bench = find_graft_bench(the_case);
-    if (bench) return bench_camera(from, *bench, sight_.viewport().aspect());
+    if (bench) return bench_camera(from, *bench, sight_.viewport().aspect(), near);
   }
   const auto& felt = live_.run()->softs();
   for (std::size_t s = 0; felt && place == WorkPlace::kSkin && s < felt->skins.size(); ++s) {
@@ -497,7 +497,7 @@ void ExerciseControl::go_with_stage() {
   const ScenarioState* const state = exercise_.state();
   if (state && state->over) return;
   const WorkPlace place = place_of_work();
-  bring_to_bench(place == WorkPlace::kBench);
+  bring_to_bench(exercise_.at_bench());
   if (place == at_) return;
   Camera& camera = sight_.view().camera;
   if (place == WorkPlace::kJoint) {

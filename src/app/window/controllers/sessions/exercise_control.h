@@ -76,7 +76,7 @@ class ExerciseControl {
   void show_scope();
   void go_in_with_scope();
   void show_skin();
-  enum class WorkPlace { kJoint, kSkin, kBench };
+  enum class WorkPlace { kJoint, kSkin, kFascia, kBench };
   WorkPlace place_of_work() const;
   std::optional<Camera> camera_at(WorkPlace place) const;
   void go_with_stage();

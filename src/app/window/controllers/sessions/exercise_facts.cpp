@@ -124,6 +124,19 @@ std::vector<ExerciseModel::Told> facts_of(const GraftWatch& graft) {
   return facts;
 }
 
+std::vector<ExerciseModel::Told> fascia_of(const GraftWatch& graft) {
+  Facts facts;
+  if (!graft.plan() || !graft.plan()->is_covered()) return facts;
+  const double open_m = fascia_open_m(*graft.plan(), graft.state());
+  facts.push_back({"Fascia, open", so_far(open_m, graft.plan()->fascia_m()),
+                   "Along the mark between both tendons, with the blade"});
+  for (std::size_t k = 0; k < kGraftTendons; ++k)
+    facts.push_back({kTendonTitles[k],
+                     graft.state().tendons[k].found ? "found" : "under the fascia",
+                     "Lifted 10 mm out of the slit by the clamp it is found"});
+  return facts;
+}
+
 std::vector<ExerciseModel::Told> bands_of(const GraftWatch& graft) {
   Facts facts;
   for (std::size_t k = 0; graft.plan() && k < kGraftTendons; ++k) {

@@ -16,6 +16,9 @@ namespace osteon {
 /// What was found out at a bench and is needed later, and how far work has come that no picture
 /// shows: a stripper on its tendon, thread and muscle of each. Nothing of a case without a bench.
 std::vector<ExerciseModel::Told> facts_of(const GraftWatch& graft);
+/// How far the fascia over both tendons is open, and which of them were found. Nothing where none
+/// covers them.
+std::vector<ExerciseModel::Told> fascia_of(const GraftWatch& graft);
 /// Of each tendon that lies in the thigh, while it is to be stripped: how many of its bands are
 /// cut. No picture shows a band.
 std::vector<ExerciseModel::Told> bands_of(const GraftWatch& graft);

@@ -288,6 +288,8 @@ bool ExerciseRun::at_incision() const {
          opens_skin(stages[watch_->state().stage]);
 }
 
+bool ExerciseRun::at_fascia() const { return at_bench() && asks_now("tendons_found"); }
+
 bool ExerciseRun::works_at_bench(std::size_t hand) const {
   const std::vector<std::string> names = used_by(hand);
   return std::any_of(names.begin(), names.end(), [](const std::string& name) {

@@ -96,6 +96,7 @@ class ExerciseRun {
   bool at_bench() const;
   /// Whether skin that is there for no portal is to be opened in the live stage.
   bool at_incision() const;
+  bool at_fascia() const;  ///< at the bench, where tendons are found under it
   /// Whether a hand may take what is used there.
   bool works_at_bench(std::size_t hand) const;
   /// Whether skin is no longer felt, or never was: what lies under it is worked on.

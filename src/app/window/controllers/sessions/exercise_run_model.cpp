@@ -173,6 +173,7 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
   model.elapsed_s = now_s_;
   model.paused = paused_;
   describe_asked(model);
+  if (asks_now("tendons_found")) model.told = fascia_of(watch_->graft());
   if (asks_now("tendons_stripped")) model.told = bands_of(watch_->graft());
   for (auto& fact : facts_of(watch_->graft())) model.told.push_back(std::move(fact));
   for (auto& fact : facts_of(watch_->placing())) model.told.push_back(std::move(fact));

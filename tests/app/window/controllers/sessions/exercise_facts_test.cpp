@@ -94,6 +94,21 @@ TEST(ExerciseFacts, TendonsThatAreToBeStrippedTellHowManyOfTheirBandsAreCut) {
   EXPECT_TRUE(bands().empty());
 }
 
+TEST(ExerciseFacts, WhileTendonsAreToBeFoundTheFasciaTellsHowFarItIsOpen) {
+  const auto bench_case = open_case("builtin:graft_bench");
+  ASSERT_TRUE(bench_case) << bench_case.error().message();
+  GraftWatch watch(**bench_case);
+  BoneSnapshot bones;
+  bones.bench = fresh_bench(*watch.plan());
+  bones.bench.slit = 0xfffff;
+  bones.bench.tendons[1].found = true;
+  std::vector<Event> out;
+  watch.add(1, bones, out);
+  EXPECT_EQ(value_of(fascia_of(watch), "Fascia, open"), "20 of 36 mm");
+  EXPECT_EQ(value_of(fascia_of(watch), "Semitendinosus"), "under the fascia");
+  EXPECT_EQ(value_of(fascia_of(watch), "Gracilis"), "found");
+}
+
 TEST(ExerciseFacts, PlacingTellsWhatBoneHides) {
   EXPECT_TRUE(facts_seen(GraftPlacingState{}).empty()) << "there are no tunnels";
   GraftPlacingState state;

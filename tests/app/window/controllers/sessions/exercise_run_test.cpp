@@ -114,7 +114,7 @@ TEST_F(ExerciseRunTest, WhatWasMadeBeforeLeavesOutItsStages) {
   EXPECT_TRUE(run_.graft_report().empty());
   ASSERT_TRUE(run_.use_graft(
       R"({"length_mm": 103, "diameter_mm": 9, "loop_mm": 15, "pretension_s": 600})", "graft.json"));
-  EXPECT_EQ(run_.model().stages.size(), whole - 7) << "incision to pretension, and the button";
+  EXPECT_EQ(run_.model().stages.size(), whole - 8) << "incision to pretension, and the button";
   EXPECT_NE(run_.graft_report().find("\"loop_mm\": 15"), std::string::npos) << "for an expert";
   EXPECT_FALSE(run_.portals_to_place());
   const std::string portal =
@@ -123,7 +123,7 @@ TEST_F(ExerciseRunTest, WhatWasMadeBeforeLeavesOutItsStages) {
                                          portal + R"(, "portal_am": )" + portal + "}}",
                                      "puncture.json");
   ASSERT_TRUE(used) << used.error().message();
-  EXPECT_EQ(run_.model().stages.size(), whole - 13);
+  EXPECT_EQ(run_.model().stages.size(), whole - 14);
   EXPECT_EQ(run_.model().stages.front().title, "The notch");
   EXPECT_TRUE(run_.portals_to_place());
   run_.set_placed("builtin:knee#portal_al=1/2/3/1/0/0");
