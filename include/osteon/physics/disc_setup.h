@@ -19,8 +19,10 @@ bool names_disc(const Case& the_case, const std::string& name);
 /// both ends hold. A piece that no bone holds is left out. Unlike a meniscus it is as stiff as its
 /// modulus makes it, so that a tear is felt. `stiffness_n_per_m`: of the tissue table, limits how
 /// soft a flap that was cut can be. Fails, and says what to do, where the case has no such part, or
-/// where the part is open, lies between no two bones or reaches but one of them.
+/// where the part is open, lies between no two bones or reaches but one of them. `known`: as
+/// make_soft_solids has it.
 Result<std::vector<SoftSolid>> make_disc_solids(const Case& the_case, const DiscRow& row,
-                                                double stiffness_n_per_m);
+                                                double stiffness_n_per_m,
+                                                FieldCache* known = nullptr);
 
 }  // namespace osteon

@@ -15,6 +15,8 @@
 
 namespace osteon {
 
+class FieldCache;
+
 /// A meniscus, or the stump of a torn ligament, that is felt. All of it is in the frame of the bone
 /// that it lies on.
 struct SoftSolid {
@@ -38,10 +40,12 @@ bool names_solids(const Case& the_case, const std::string& name);
 
 /// Makes solids of the case's menisci. `names`: as names_solids has them. Each lies on its bone,
 /// held along its lower outer edge, horns included. `stiffness_n_per_m`: what a hand meets where it
-/// presses from above. Fails, and says what there is, where the case has no such part, or where the
+/// presses from above. `known`: fields that were made before, and where new ones are put; null:
+/// all are made. Fails, and says what there is, where the case has no such part, or where the
 /// part is open or belongs to no one bone.
 Result<std::vector<SoftSolid>> make_soft_solids(const Case& the_case,
                                                 std::span<const std::string> names,
-                                                double stiffness_n_per_m);
+                                                double stiffness_n_per_m,
+                                                FieldCache* known = nullptr);
 
 }  // namespace osteon

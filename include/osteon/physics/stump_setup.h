@@ -22,7 +22,8 @@ struct StumpStiffness {
 /// footprint, and what lies more than 1.5 mm above the bone is to be cleared, so that the footprint
 /// stays to be seen. Torn fibres carry nothing: half of the ligament's stiffness and cutting force
 /// is left (an assumption of ours). Fails, and says what to do, where no ligament of the case is
-/// torn through.
-Result<std::vector<SoftSolid>> make_stumps(const Case& the_case, const StumpStiffness& of);
+/// torn through. `known`: as make_soft_solids has it.
+Result<std::vector<SoftSolid>> make_stumps(const Case& the_case, const StumpStiffness& of,
+                                           FieldCache* known = nullptr);
 
 }  // namespace osteon

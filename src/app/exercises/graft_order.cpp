@@ -35,6 +35,15 @@ bool is_at_bench(const ScenarioStage& stage) {
   });
 }
 
+WorkPlace place_of_work(const ScenarioStage& stage) {
+  if (opens_skin(stage)) return WorkPlace::kSkin;
+  if (!is_at_bench(stage)) return WorkPlace::kJoint;
+  const bool finds = std::any_of(stage.goals.begin(), stage.goals.end(), [](const Rule& goal) {
+    return goal.kind == "fascia_opened" || goal.kind == "tendons_found";
+  });
+  return finds ? WorkPlace::kFascia : WorkPlace::kBench;
+}
+
 // With them the skin is left whole through which the tendons would come.
 void leave_out_bench_stages(Scenario& scenario) {
   if (std::erase_if(scenario.stages, opens_skin) > 0)

@@ -15,6 +15,10 @@ bool asks_for_graft(const ScenarioPlan& plan);
 
 /// Whether the goals of a stage are about a graft that is made at a bench.
 bool is_at_bench(const ScenarioStage& stage);
+/// Where the work of a stage is done: in the joint, on skin that is there for no portal, at a bench
+/// where tendons are found under their fascia, or at the rest of it.
+enum class WorkPlace { kJoint, kSkin, kFascia, kBench };
+WorkPlace place_of_work(const ScenarioStage& stage);
 /// Leaves out the stages in which a graft is made at a bench: for one that was made before.
 void leave_out_bench_stages(Scenario& scenario);
 

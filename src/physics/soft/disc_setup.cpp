@@ -151,13 +151,15 @@ PressedSolidDef disc_def(std::shared_ptr<const DiscPlace> place, const TriMesh& 
 }
 
 Result<SoftSolid> piece_of(const Case& the_case, std::shared_ptr<const DiscPlace> place,
-                           const TriMesh& mesh_B, const DiscRow& row, double stiffness_n_per_m) {
+                           const TriMesh& mesh_B, const DiscRow& row, double stiffness_n_per_m,
+                           FieldCache* known) {
   SoftSolid out;
   out.name = the_case.softs[place->soft].name;
   out.soft = place->soft;
   out.bone = place->bone;
   const std::string what = "the disc '" + out.name + "'";
-  if (auto made = make_solid_fields(mesh_B, what, out); !made) return tl::unexpected(made.error());
+  if (auto made = make_solid_fields(mesh_B, what, known, out); !made)
+    return tl::unexpected(made.error());
   auto body = PressedSolid::make(disc_def(place, mesh_B, out.field, row, stiffness_n_per_m));
   if (!body) {
     body.error().where = what;
@@ -198,7 +200,7 @@ bool names_disc(const Case& the_case, const std::string& name) {
 }
 
 Result<std::vector<SoftSolid>> make_disc_solids(const Case& the_case, const DiscRow& row,
-                                                double stiffness_n_per_m) {
+                                                double stiffness_n_per_m, FieldCache* known) {
   const auto soft = disc_of(the_case, row.part);
   if (!soft)
     return fail("the case has no disc that can be felt", kDiscWhere,
@@ -215,7 +217,7 @@ Result<std::vector<SoftSolid>> make_disc_solids(const Case& the_case, const Disc
   for (const TriMesh& piece : pieces) {
     const auto touches = [&](const Vec3& p) { return place->held(p); };
     if (std::none_of(piece.vertices.begin(), piece.vertices.end(), touches)) continue;
-    auto solid = piece_of(the_case, place, piece, row, stiffness_n_per_m);
+    auto solid = piece_of(the_case, place, piece, row, stiffness_n_per_m, known);
     if (!solid && !out.empty()) continue;  // a shred
     if (!solid) return tl::unexpected(solid.error());
     if (pieces.size() > 1) solid->surface_B = std::make_shared<const TriMesh>(piece);

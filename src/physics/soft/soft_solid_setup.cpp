@@ -74,7 +74,8 @@ PressedSolidDef solid_def(const TriMesh& mesh, const RimOutline& outline,
   return def;
 }
 
-Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stiffness_n_per_m) {
+Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stiffness_n_per_m,
+                           FieldCache* known) {
   const SoftPart& part = the_case.softs[soft];
   SoftSolid out;
   out.name = part.name;
@@ -86,7 +87,8 @@ Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stif
   TriMesh mesh_B = part.mesh_W;
   mesh_B.vertices = in_bone(the_case, part, out.bone);
   const std::string what = "the meniscus '" + part.name + "'";
-  if (auto made = make_solid_fields(mesh_B, what, out); !made) return tl::unexpected(made.error());
+  if (auto made = make_solid_fields(mesh_B, what, known, out); !made)
+    return tl::unexpected(made.error());
   const RimOutline outline(mesh_B.vertices, vertices_middle(the_case.bone(out.bone).mesh));
   auto body = PressedSolid::make(solid_def(mesh_B, outline, out.field, stiffness_n_per_m));
   if (!body) {
@@ -298,14 +300,14 @@ void add_solids(SoftSetup& setup, std::vector<SoftSolid> solids) {
 
 Result<std::vector<SoftSolid>> make_soft_solids(const Case& the_case,
                                                 std::span<const std::string> names,
-                                                double stiffness_n_per_m) {
+                                                double stiffness_n_per_m, FieldCache* known) {
   const auto asked = menisci_asked(the_case, names);
   if (!asked) return tl::unexpected(asked.error());
   if (!(stiffness_n_per_m > 0 && std::isfinite(stiffness_n_per_m)))
     return fail("a meniscus has no stiffness", kSolidsWhere, "Correct the tissue table");
   std::vector<SoftSolid> out;
   for (const std::uint32_t soft : *asked) {
-    auto solid = solid_of(the_case, soft, stiffness_n_per_m);
+    auto solid = solid_of(the_case, soft, stiffness_n_per_m, known);
     if (!solid) return tl::unexpected(solid.error());
     out.push_back(std::move(*solid));
   }

@@ -7,7 +7,9 @@
 namespace osteon {
 
 /// The fields of a soft solid's surface, for who touches it and for who cuts it. `what`: named in
-/// errors. Fails on a surface that is open.
-Result<void> make_solid_fields(const TriMesh& mesh_B, const std::string& what, SoftSolid& out);
+/// errors. `known`: where the first of them is looked for, and put; null: it is made. Fails on a
+/// surface that is open.
+Result<void> make_solid_fields(const TriMesh& mesh_B, const std::string& what, FieldCache* known,
+                               SoftSolid& out);
 
 }  // namespace osteon

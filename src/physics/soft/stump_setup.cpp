@@ -25,14 +25,15 @@ std::function<double(const Vec3&)> height_over(const TriMesh& bone) {
   return [surface](const Vec3& p_B) { return surface->closest(p_B).signed_distance; };
 }
 
-Result<SoftSolid> stump_of(const Case& the_case, TornStump&& stump, const StumpStiffness& of) {
+Result<SoftSolid> stump_of(const Case& the_case, TornStump&& stump, const StumpStiffness& of,
+                           FieldCache* known) {
   SoftSolid out;
   out.name = the_case.softs[stump.soft].name + "_stump_" + the_case.bone(stump.bone).name;
   out.soft = stump.soft;
   out.bone = stump.bone;
   out.cutting_n = kLeftOfTorn * of.cutting_n;
   const std::string what = "the stump '" + out.name + "'";
-  if (auto made = make_solid_fields(stump.mesh_B, what, out); !made)
+  if (auto made = make_solid_fields(stump.mesh_B, what, known, out); !made)
     return tl::unexpected(made.error());
   const auto height = height_over(the_case.bone(stump.bone).mesh);
   PressedSolidDef def;
@@ -60,7 +61,8 @@ Result<SoftSolid> stump_of(const Case& the_case, TornStump&& stump, const StumpS
 
 bool names_stumps(const std::string& name) { return name == kStumps; }
 
-Result<std::vector<SoftSolid>> make_stumps(const Case& the_case, const StumpStiffness& of) {
+Result<std::vector<SoftSolid>> make_stumps(const Case& the_case, const StumpStiffness& of,
+                                           FieldCache* known) {
   std::vector<TornStump> stumps = torn_stumps(the_case);
   if (stumps.empty())
     return fail("no ligament of the case is torn through", kStumpsWhere,
@@ -72,7 +74,7 @@ Result<std::vector<SoftSolid>> make_stumps(const Case& the_case, const StumpStif
     return fail("a stump has no stiffness", kStumpsWhere, "Correct the tissue table");
   std::vector<SoftSolid> out;
   for (TornStump& stump : stumps) {
-    auto solid = stump_of(the_case, std::move(stump), of);
+    auto solid = stump_of(the_case, std::move(stump), of, known);
     if (!solid) return tl::unexpected(solid.error());
     out.push_back(std::move(*solid));
   }

@@ -33,6 +33,25 @@ TEST(GraftOrder, StagesAtTheBenchAreLeftOutWhereTheGraftIsMade) {
   EXPECT_EQ(scenario.stages[2].name, "thread_laid");
 }
 
+TEST(GraftOrder, AStageIsWorkedOnWhereItsGoalsAre) {
+  const auto place = [](const std::string& kind) {
+    ScenarioStage stage;
+    stage.goals.emplace_back();
+    stage.goals.back().kind = "seen";
+    stage.goals.emplace_back();
+    stage.goals.back().kind = kind;
+    return place_of_work(stage);
+  };
+  EXPECT_EQ(place_of_work(ScenarioStage{}), WorkPlace::kJoint);
+  EXPECT_EQ(place("socket_drilled"), WorkPlace::kJoint);
+  EXPECT_EQ(place("portal_made"), WorkPlace::kJoint);
+  EXPECT_EQ(place("skin_opened"), WorkPlace::kSkin);
+  EXPECT_EQ(place("fascia_opened"), WorkPlace::kFascia);
+  EXPECT_EQ(place("tendons_found"), WorkPlace::kFascia);
+  EXPECT_EQ(place("tendons_stripped"), WorkPlace::kBench);
+  EXPECT_EQ(place("loop_hung"), WorkPlace::kBench);
+}
+
 TEST(GraftOrder, SaysNothingUntilTheTunnelsAreMeasured) {
   GraftOrder order;
   order.see(std::nullopt, BoneSnapshot{});

@@ -5,12 +5,16 @@
 #include <sstream>
 
 #include "cases/all_cores.h"
+#include "cases/cache_room.h"
+#include "cases/xdg.h"
 #include "osteon/base/file.h"
+#include "osteon/base/hash.h"
 #include "osteon/image/tissue.h"
 #include "osteon/physics/disc_setup.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/stump_setup.h"
 #include "osteon/render/anatomical_view.h"
+#include "osteon/scene/field_cache.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/soft_solid.h"
 
@@ -160,27 +164,46 @@ void append_solids(std::vector<SoftSolid>&& from, std::vector<SoftSolid>& out) {
   for (SoftSolid& solid : from) out.push_back(std::move(solid));
 }
 
+// Fields of soft parts that were made before, in the user's cache.
+std::filesystem::path soft_fields_file(const Case& the_case) {
+  Hasher hasher;
+  hasher.add(the_case.hash);
+  for (const SoftPart& part : the_case.softs) {
+    hasher.add(std::string_view(part.name));
+    hasher.add(static_cast<std::uint64_t>(part.mesh_W.vertices.size()));
+  }
+  return cache_dir() / ("fields-soft-" + std::to_string(hasher.value()) + ".bin");
+}
+
+// They are made again where they cannot be kept.
+void keep_soft_fields(FieldCache& fields, const std::filesystem::path& file) {
+  if (!fields.save()) return;
+  note_use(file);
+  keep_cache_room(cache_dir(), file);
+}
+
 // Menisci, the disc of a wrist and what torn ligaments have left: solids of one list.
 Result<std::vector<SoftSolid>> solids_named(const Case& the_case, const SoftNames& names,
-                                            const TissueTable& tissues, const Tissue& meniscus) {
+                                            const TissueTable& tissues, const Tissue& meniscus,
+                                            FieldCache& known) {
   std::vector<SoftSolid> out;
   if (!names.menisci.empty()) {
-    auto made = make_soft_solids(the_case, names.menisci, meniscus.stiffness_n_per_m.value);
+    auto made = make_soft_solids(the_case, names.menisci, meniscus.stiffness_n_per_m.value, &known);
     if (!made) return made;
     append_solids(std::move(*made), out);
   }
   if (names.disc) {
     const auto table = table_for(the_case);
     if (!table) return tl::unexpected(table.error());
-    auto made = make_disc_solids(the_case, table->disc, meniscus.stiffness_n_per_m.value);
+    auto made = make_disc_solids(the_case, table->disc, meniscus.stiffness_n_per_m.value, &known);
     if (!made) return made;
     append_solids(std::move(*made), out);
   }
   if (names.stumps) {
     const auto ligament = tissue_named(tissues, "ligament");
     if (!ligament) return tl::unexpected(ligament.error());
-    auto made =
-        make_stumps(the_case, {(*ligament)->stiffness_n_per_m.value, (*ligament)->cutting_n.value});
+    auto made = make_stumps(
+        the_case, {(*ligament)->stiffness_n_per_m.value, (*ligament)->cutting_n.value}, &known);
     if (!made) return made;
     append_solids(std::move(*made), out);
   }
@@ -196,8 +219,11 @@ Result<void> add_solids_named(const Case& the_case, const SoftNames& names,
   if (names.menisci.empty() && !names.stumps && !names.disc) return {};
   const auto meniscus = tissue_named(tissues, "meniscus");
   if (!meniscus) return tl::unexpected(meniscus.error());
-  auto solids = solids_named(the_case, names, tissues, **meniscus);
+  const std::filesystem::path file = soft_fields_file(the_case);
+  FieldCache known(file);
+  auto solids = solids_named(the_case, names, tissues, **meniscus, known);
   if (!solids) return tl::unexpected(solids.error());
+  keep_soft_fields(known, file);
   add_solids(setup, std::move(*solids));
   auto cutters = make_solid_cutters(tray);
   if (!cutters) return tl::unexpected(cutters.error());

@@ -438,7 +438,7 @@ void ExerciseControl::begin_to_work(const std::vector<PlannedHand>& hands) {
   if (looks && !waits_for_portal_) show_scope();
   look_at_the_box(hands);
   // A cut of 10 mm is small in a picture of the whole leg. Elsewhere the picture goes by itself.
-  if (waits_for_portal_ && place_of_work() == WorkPlace::kJoint) sight_.fly_close_up({});
+  if (waits_for_portal_ && exercise_.place_of_work() == WorkPlace::kJoint) sight_.fly_close_up({});
   skin_clear_.reset();
   at_ = WorkPlace::kJoint;
   hand_before_bench_.reset();
@@ -469,11 +469,6 @@ void ExerciseControl::show_skin() {
     if (scene_.the_case->softs[i].kind == "skin") softs[i].opacity = clear ? kClearSkin : 1;
 }
 
-ExerciseControl::WorkPlace ExerciseControl::place_of_work() const {
-  if (exercise_.at_bench()) return exercise_.at_fascia() ? WorkPlace::kFascia : WorkPlace::kBench;
-  return exercise_.at_incision() ? WorkPlace::kSkin : WorkPlace::kJoint;
-}
-
 // How the picture is taken elsewhere than at the joint; none: there is no such place.
 std::optional<Camera> ExerciseControl::camera_at(WorkPlace place) const {
   const Case& the_case = *scene_.the_case;
@@ -496,7 +491,7 @@ std::optional<Camera> ExerciseControl::camera_at(WorkPlace place) const {
 void ExerciseControl::go_with_stage() {
   const ScenarioState* const state = exercise_.state();
   if (state && state->over) return;
-  const WorkPlace place = place_of_work();
+  const WorkPlace place = exercise_.place_of_work();
   bring_to_bench(exercise_.at_bench());
   if (place == at_) return;
   Camera& camera = sight_.view().camera;

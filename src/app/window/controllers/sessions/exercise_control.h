@@ -76,8 +76,6 @@ class ExerciseControl {
   void show_scope();
   void go_in_with_scope();
   void show_skin();
-  enum class WorkPlace { kJoint, kSkin, kFascia, kBench };
-  WorkPlace place_of_work() const;
   std::optional<Camera> camera_at(WorkPlace place) const;
   void go_with_stage();
   void bring_to_bench(bool at_bench);

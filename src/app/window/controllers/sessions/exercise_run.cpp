@@ -276,19 +276,18 @@ std::optional<Command> ExerciseRun::next_order(const BoneSnapshot& bones) {
   return exam_->take();
 }
 
+WorkPlace ExerciseRun::place_of_work() const {
+  const auto& stages = scenario().stages;
+  if (!watch_ || watch_->state().stage >= stages.size()) return WorkPlace::kJoint;
+  const WorkPlace place = osteon::place_of_work(stages[watch_->state().stage]);
+  const bool beside_limb = case_ && !is_practice_bench(*case_);
+  return place == WorkPlace::kSkin || beside_limb ? place : WorkPlace::kJoint;
+}
+
 bool ExerciseRun::at_bench() const {
-  const auto& stages = scenario().stages;
-  return watch_ && case_ && !is_practice_bench(*case_) && watch_->state().stage < stages.size() &&
-         is_at_bench(stages[watch_->state().stage]);
+  const WorkPlace place = place_of_work();
+  return place == WorkPlace::kFascia || place == WorkPlace::kBench;
 }
-
-bool ExerciseRun::at_incision() const {
-  const auto& stages = scenario().stages;
-  return watch_ && watch_->state().stage < stages.size() &&
-         opens_skin(stages[watch_->state().stage]);
-}
-
-bool ExerciseRun::at_fascia() const { return at_bench() && asks_now("tendons_found"); }
 
 bool ExerciseRun::works_at_bench(std::size_t hand) const {
   const std::vector<std::string> names = used_by(hand);
@@ -298,7 +297,7 @@ bool ExerciseRun::works_at_bench(std::size_t hand) const {
 }
 
 bool ExerciseRun::is_under_skin() const {
-  if (at_incision()) return false;
+  if (place_of_work() == WorkPlace::kSkin) return false;
   const auto& soft = scenario().soft;
   const bool felt = std::any_of(soft.begin(), soft.end(), is_skin_of_portals);
   if (!felt || !plan_ || !watch_) return !felt;

@@ -92,11 +92,9 @@ class ExerciseRun {
   std::optional<Command> next_order(const BoneSnapshot& bones);
   /// One of those could not be said: it is the next again.
   void refuse(const Command& order) { refused_ = order; }
-  /// Whether what the live stage asks for is done at a bench.
-  bool at_bench() const;
-  /// Whether skin that is there for no portal is to be opened in the live stage.
-  bool at_incision() const;
-  bool at_fascia() const;  ///< at the bench, where tendons are found under it
+  /// Where what the live stage asks for is done; at a bench: only at one beside a limb.
+  WorkPlace place_of_work() const;
+  bool at_bench() const;  ///< kFascia or kBench
   /// Whether a hand may take what is used there.
   bool works_at_bench(std::size_t hand) const;
   /// Whether skin is no longer felt, or never was: what lies under it is worked on.
