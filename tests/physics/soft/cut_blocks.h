@@ -64,7 +64,7 @@ struct CutBlocks {
     whole_m3.push_back(8 * half.x() * half.y() * half.z());
     SoftSolid solid;
     const bool made_fields =
-        make_solid_fields(block_about(middles_B[0], half), "a block", solid).has_value();
+        make_solid_fields(block_about(middles_B[0], half), "a block", nullptr, solid).has_value();
     demand(made_fields, "a block has no field");
     solid.hangs = [](const Vec3& p_B) { return p_B.z() < 0.0007; };
     PressedSolidDef def;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "cases/open_case.h"
+#include "osteon/physics/soft_setup.h"
 
 namespace osteon {
 namespace {
