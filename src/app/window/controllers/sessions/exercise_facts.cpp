@@ -183,11 +183,13 @@ std::vector<ExerciseModel::Told> facts_of(const PlacingWatch& placing) {
 }
 
 std::string words_of_goal(std::string_view kind) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 6> kWords{{
+  constexpr std::array<std::pair<std::string_view, const char*>, 8> kWords{{
       {"knee_examined", "test Lachman and pivot shift"},
       {"knee_cycled", "stretch the knee out and bend it"},
       {"screw_in", "turn the screw in"},
       {"graft_tested", "a graft that holds"},
+      {"fascia_opened", "open the fascia"},
+      {"tendons_found", "lift both tendons out"},
       {"muscle_off", "scrape the muscle off"},
       {"tendons_stitched", "thread through both ends"},
   }};
