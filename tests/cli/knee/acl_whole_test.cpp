@@ -91,7 +91,7 @@ TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
   EXPECT_GT(hand["found"]["pivot"]["side_difference_mm"], 1.5);
   EXPECT_LT(hand["grafted"]["pivot"]["side_difference_mm"], 1.5);
   // The graft drawn in and fixed; from the beginning in TwentyKnees.
-  EXPECT_EQ(run_osteon("replay --from 530 " + file("w.osr")).exit_code, 0);
+  EXPECT_EQ(run_osteon("replay --from 546 " + file("w.osr")).exit_code, 0);
 }
 
 TEST_F(WholeAcl, EachBadSurgeonMakesHisErrorAlone) {
