@@ -111,7 +111,7 @@ TEST_F(PunctureCommands, AReconstructionGoesInWhereThePortalsWereMade) {
   EXPECT_GT(json["hands"]["probe"]["portals"]["portal_am"]["times_entered"], 0);
   EXPECT_GT(json["hands"]["scope"]["portals"]["portal_al"]["times_entered"], 0);
   // No stage in which portals are made is left.
-  EXPECT_EQ(json["stages"].size(), 15u);
+  EXPECT_EQ(json["stages"].size(), 16u);
   EXPECT_EQ(json["stages"][0]["name"], "inspection");
   EXPECT_TRUE(json["stages"][0]["completed_s"].is_number());
   EXPECT_FALSE(json["portals"].contains("patient"));
