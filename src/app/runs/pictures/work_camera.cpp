@@ -108,8 +108,10 @@ bool is_at_bench(const GraftBenchPlan& bench, const Vec3& tip_W) {
   return (box.lo - tip_W).cwiseMax(tip_W - box.hi).cwiseMax(0).norm() < kNear_m;
 }
 
-Pose beside_bench(const GraftBenchPlan& bench) {
-  const Vec3 above_W = bench.graft_from_W + Vec3(-0.03, 0.16, 0.06);
+Pose beside_bench(const GraftBenchPlan& bench, bool near_fascia) {
+  Vec3 above_W = bench.graft_from_W + Vec3(-0.03, 0.16, 0.06);
+  if (near_fascia && bench.is_covered())
+    above_W = bench.fascia_from_W + 0.02 * bench.fascia_up_W() - 0.005 * bench.fascia_along_W();
   return {above_W, turn_between(Vec3::UnitZ(), Vec3(-0.4, 0, 0.9).normalized())};
 }
 

@@ -23,7 +23,7 @@ Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspe
 Camera skin_camera(const Camera& from, const Pose& X_WS);
 /// Whether a tip is so near to what lies on a bench that a hand works there.
 bool is_at_bench(const GraftBenchPlan& bench, const Vec3& tip_W);
-/// Where a hand begins that comes to the bench.
-Pose beside_bench(const GraftBenchPlan& bench);
+/// Where a hand begins that comes to the bench; `near_fascia`: to where tendons are found.
+Pose beside_bench(const GraftBenchPlan& bench, bool near_fascia = false);
 
 }  // namespace osteon

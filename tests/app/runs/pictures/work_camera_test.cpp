@@ -82,6 +82,12 @@ TEST(WorkCamera, ABenchIsSeenFromAboveAndFromWhereTheOperatorIs) {
   const Camera near = bench_camera(camera, *covered, 1.8, true);
   EXPECT_LT(near.distance_m, 0.5 * bench_camera(camera, *covered, 1.8).distance_m);
   EXPECT_LT((near.target_W - covered->fascia_from_W).norm(), 0.03);
+  // A hand that comes there is in that picture.
+  const Vec3 hand_C = near.X_WC().inverse() * beside_bench(*covered, true).p;
+  const double half_tan = std::tan(0.5 * near.vertical_fov_rad);
+  EXPECT_LT(std::abs(hand_C.y()), -0.6 * half_tan * hand_C.z());
+  EXPECT_LT(std::abs(hand_C.x()), -0.6 * half_tan * hand_C.z());
+  EXPECT_EQ(beside_bench(*bench, true).p, beside_bench(*bench).p);
   EXPECT_EQ(bench_camera(camera, *bench, 0), camera);
 }
 

@@ -526,7 +526,7 @@ void ExerciseControl::bring_to_bench(bool at_bench) {
   if (at_bench == hand_before_bench_.has_value() || !may) return;
   const auto bench = find_graft_bench(*scene_.the_case);
   if (!bench) return;
-  const Pose low = beside_bench(*bench);
+  const Pose low = beside_bench(*bench, exercise_.place_of_work() == WorkPlace::kFascia);
   const Pose high{low.p + Vec3(0, 0, kHighOver_m), low.q};
   ways_ = {high, at_bench ? low : *hand_before_bench_};
   hand_before_bench_ = at_bench ? std::optional<Pose>(at) : std::nullopt;
