@@ -82,7 +82,10 @@ Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspe
     return look_from(from, view_from, points_on(bench), aspect);
   const std::vector<Vec3> points{bench.fascia_from_W, bench.fascia_to_W,
                                  bench.tendons[0].insertion_W, bench.tendons[1].insertion_W};
-  return look_from(from, view_from, points, aspect);
+  // Straight down: a stroke along the mark is one along the picture, and stays as deep as it is.
+  Camera camera = look_from(from, view_from, points, aspect);
+  camera.q_WC = look_rotation(bench.fascia_up_W(), bench.fascia_along_W());
+  return camera;
 }
 
 Camera skin_camera(const Camera& from, const Pose& X_WS) {
@@ -109,9 +112,13 @@ bool is_at_bench(const GraftBenchPlan& bench, const Vec3& tip_W) {
 }
 
 Pose beside_bench(const GraftBenchPlan& bench, bool near_fascia) {
-  Vec3 above_W = bench.graft_from_W + Vec3(-0.03, 0.16, 0.06);
-  if (near_fascia && bench.is_covered())
-    above_W = bench.fascia_from_W + 0.02 * bench.fascia_up_W() - 0.005 * bench.fascia_along_W();
+  if (near_fascia && bench.is_covered()) {
+    // From the side: the shaft hides nothing of the mark from above.
+    const Vec3 back_W = 0.6 * bench.fascia_across_W() + 0.8 * bench.fascia_up_W();
+    const Vec3 before_W = bench.fascia_from_W - 0.005 * bench.fascia_along_W();
+    return {before_W + 0.01 * bench.fascia_up_W(), turn_between(Vec3::UnitZ(), back_W)};
+  }
+  const Vec3 above_W = bench.graft_from_W + Vec3(-0.03, 0.16, 0.06);
   return {above_W, turn_between(Vec3::UnitZ(), Vec3(-0.4, 0, 0.9).normalized())};
 }
 

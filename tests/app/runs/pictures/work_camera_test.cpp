@@ -82,6 +82,8 @@ TEST(WorkCamera, ABenchIsSeenFromAboveAndFromWhereTheOperatorIs) {
   const Camera near = bench_camera(camera, *covered, 1.8, true);
   EXPECT_LT(near.distance_m, 0.5 * bench_camera(camera, *covered, 1.8).distance_m);
   EXPECT_LT((near.target_W - covered->fascia_from_W).norm(), 0.03);
+  const Vec3 along_C = near.X_WC().inverse().rotate(covered->fascia_along_W());
+  EXPECT_NEAR(along_C.y(), 1, 1e-9) << "a stroke along the mark goes up the picture";
   // A hand that comes there is in that picture.
   const Vec3 hand_C = near.X_WC().inverse() * beside_bench(*covered, true).p;
   const double half_tan = std::tan(0.5 * near.vertical_fov_rad);
