@@ -10,7 +10,7 @@ namespace osteon {
 
 inline constexpr double kFound_m = 0.010;     ///< lifted so far out, a tendon is found
 inline constexpr double kLift_n_per_m = 150;  ///< against so much, own default
-inline constexpr double kTooDeep_n = 4;       ///< pressed so hard, a blade cuts the ligament
+inline constexpr double kTooDeep_n = 5;       ///< pressed so hard, a blade cuts the ligament
 inline constexpr double kNerve_m = 0.018;     ///< the nerve lies so far from the line or more
 
 /// A step of a blade. Presses on the fascia: opens it from where the blade was to where it is; too

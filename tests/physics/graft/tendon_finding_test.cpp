@@ -78,9 +78,9 @@ TEST_F(TendonFinding, WhatDoesNotPressOrLiesBesideOpensNothing) {
 }
 
 TEST_F(TendonFinding, WhatLiesUnderAndBehindIsHurtByForceAndByABladeThatIsDrawn) {
-  draw(0.010, 0.040, 0, 3.9);
+  draw(0.010, 0.040, 0, 4.9);
   EXPECT_EQ(state.hurt, 0u);
-  draw(0.010, 0.012, 0, 4.1);
+  draw(0.010, 0.012, 0, 5.1);
   EXPECT_EQ(state.hurt, kMclHurt);
   hand = {};
   for (int n = 0; n < 100; ++n) blade_at(0.02, -0.022, 0.5);  // it rests there

@@ -116,7 +116,7 @@ Pose beside_bench(const GraftBenchPlan& bench, bool near_fascia) {
     // From the side: the shaft hides nothing of the mark from above.
     const Vec3 back_W = 0.6 * bench.fascia_across_W() + 0.8 * bench.fascia_up_W();
     const Vec3 before_W = bench.fascia_from_W - 0.005 * bench.fascia_along_W();
-    return {before_W + 0.01 * bench.fascia_up_W(), turn_between(Vec3::UnitZ(), back_W)};
+    return {before_W + 0.011 * bench.fascia_up_W(), turn_between(Vec3::UnitZ(), back_W)};
   }
   const Vec3 above_W = bench.graft_from_W + Vec3(-0.03, 0.16, 0.06);
   return {above_W, turn_between(Vec3::UnitZ(), Vec3(-0.4, 0, 0.9).normalized())};
