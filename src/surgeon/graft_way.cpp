@@ -28,7 +28,7 @@ constexpr int kStrokes = 2;  // and back
 constexpr std::uint32_t kPasses = 5, kTooFewPasses = 2;
 constexpr double kHang_s = 1.5, kTooWide_m = 0.001;
 constexpr double kShortOfMark_m = 0.001, kLiftOut_m = 0.020;
-constexpr double kBehindMark_m = 0.022, kThroughFascia_m = 0.012;
+constexpr double kBehindMark_m = 0.022, kThroughFascia_m = 0.016;
 const Vec3 kHandBegins(-0.03, 0.16, 0.06);  // from where the graft begins
 const Vec3 kComes(-0.03, 0.16, 0.25);       // high over all that lies there
 const Vec3 kOverKnee(0, 0, 0.45);           // from the joint's middle
