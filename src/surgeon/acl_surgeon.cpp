@@ -35,7 +35,7 @@ constexpr double kShaverRadius_m = 0.0021;  // of the usual size
 // A shaver at full power sucks off more than the usual 60 mmHg bring in.
 constexpr double kShavingPump_pa = 100 * 133.322;
 
-constexpr std::array<std::string_view, 40> kFaults{"wrong_portal",
+constexpr std::array<std::string_view, 42> kFaults{"wrong_portal",
                                                    "skipped_inspection",
                                                    "scuffed",
                                                    "too_hard",
@@ -56,6 +56,8 @@ constexpr std::array<std::string_view, 40> kFaults{"wrong_portal",
                                                    "shallow_screw",
                                                    "incision_aside",
                                                    "incision_deep",
+                                                   "mcl_cut",
+                                                   "nerve_cut",
                                                    "amputated_tendon",
                                                    "muscle_left",
                                                    "few_stitches",
