@@ -79,8 +79,6 @@ class GraftWatch {
   const GraftBenchState& state() const { return seen_; }
 
  private:
-  void tell(std::uint64_t tick, EventKind kind, std::array<double, 3> values,
-            std::vector<Event>& out) const;
   void tell_finding(std::uint64_t tick, const GraftBenchState& now, std::vector<Event>& out) const;
   void tell_tendons(std::uint64_t tick, const GraftBenchState& now, std::vector<Event>& out) const;
   void tell_table_work(std::uint64_t tick, const GraftBenchState& now,

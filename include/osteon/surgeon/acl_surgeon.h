@@ -56,7 +56,8 @@ struct AclWays {
 /// `old_tunnel_mouth`, `_end`) a new one leaves bone.
 Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skill& skill);
 
-/// What a bad surgeon can do wrong, as an exercise's errors are named.
+/// What a bad surgeon can do wrong, as an exercise's errors are named, besides making a portal or a
+/// graft (puncture_faults, graft_faults_in_knee).
 std::span<const std::string_view> acl_faults();
 
 }  // namespace osteon

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "osteon/scene/graft.h"
+#include "watch/watch_event.h"
 
 namespace osteon {
 namespace {
@@ -35,16 +36,6 @@ GraftWatch::GraftWatch(const Case& the_case) : plan_(find_graft_bench(the_case))
   if (plan_) seen_ = fresh_bench(*plan_);
 }
 
-void GraftWatch::tell(std::uint64_t tick, EventKind kind, std::array<double, 3> values,
-                      std::vector<Event>& out) const {
-  Event event;
-  event.tick = tick;
-  event.kind = kind;
-  event.hand = 0;
-  event.values = values;
-  out.push_back(event);
-}
-
 void GraftWatch::tell_finding(std::uint64_t tick, const GraftBenchState& now,
                               std::vector<Event>& out) const {
   double found = 0;
@@ -54,11 +45,12 @@ void GraftWatch::tell_finding(std::uint64_t tick, const GraftBenchState& now,
     more = more || (now.tendons[t].found && !seen_.tendons[t].found);
   }
   const double open_m = fascia_open_m(*plan_, now);
-  if (open_m > fascia_open_m(*plan_, seen_)) tell(tick, kFasciaOpened, {1e3 * open_m, 0, 0}, out);
-  if (more) tell(tick, kTendonFound, {found, 0, 0}, out);
+  if (open_m > fascia_open_m(*plan_, seen_))
+    out.push_back(event_of(tick, kFasciaOpened, {1e3 * open_m, 0, 0}));
+  if (more) out.push_back(event_of(tick, kTendonFound, {found, 0, 0}));
   for (std::uint32_t k = 0; k < 2; ++k)
     if (((now.hurt & ~seen_.hurt) >> k & 1u) != 0)
-      tell(tick, kByFasciaHurt, {static_cast<double>(k), 0, 0}, out);
+      out.push_back(event_of(tick, kByFasciaHurt, {static_cast<double>(k), 0, 0}));
 }
 
 void GraftWatch::tell_tendons(std::uint64_t tick, const GraftBenchState& now,
@@ -69,12 +61,14 @@ void GraftWatch::tell_tendons(std::uint64_t tick, const GraftBenchState& now,
   for (std::size_t t = 0; t < kGraftTendons; ++t) {
     const TendonOnBench &is = now.tendons[t], &was = seen_.tendons[t];
     if (is.bands_cut != was.bands_cut)
-      tell(tick, kBandCut, {static_cast<double>(bands_left(*plan_, now)), 0, 0}, out);
+      out.push_back(event_of(tick, kBandCut, {static_cast<double>(bands_left(*plan_, now)), 0, 0}));
     if (is.stripped && !was.stripped)
-      tell(tick, kTendonStripped,
-           {1e3 * harvested(*plan_, now, t)->length_m, is.amputated ? 1.0 : 0.0, whole}, out);
+      out.push_back(
+          event_of(tick, kTendonStripped,
+                   {1e3 * harvested(*plan_, now, t)->length_m, is.amputated ? 1.0 : 0.0, whole}));
     const auto graft = is.folds != was.folds ? graft_on(*plan_, now) : std::nullopt;
-    if (graft) tell(tick, kTendonFolded, {static_cast<double>(graft->strands), 0, 0}, out);
+    if (graft)
+      out.push_back(event_of(tick, kTendonFolded, {static_cast<double>(graft->strands), 0, 0}));
   }
 }
 
@@ -88,8 +82,8 @@ void GraftWatch::tell_table_work(std::uint64_t tick, const GraftBenchState& now,
     stitched = stitched || is.stitches != was.stitches;
     fewest = std::min(fewest, is.passes());
   }
-  if (scraped) tell(tick, kMuscleScraped, {100 * most_muscle(now, false), 0, 0}, out);
-  if (stitched) tell(tick, kTendonStitched, {static_cast<double>(fewest), 0, 0}, out);
+  if (scraped) out.push_back(event_of(tick, kMuscleScraped, {100 * most_muscle(now, false), 0, 0}));
+  if (stitched) out.push_back(event_of(tick, kTendonStitched, {static_cast<double>(fewest), 0, 0}));
 }
 
 void GraftWatch::tell_graft(std::uint64_t tick, const GraftBenchState& now,
@@ -97,11 +91,12 @@ void GraftWatch::tell_graft(std::uint64_t tick, const GraftBenchState& now,
   const auto graft = graft_on(*plan_, now);
   if (!graft) return;
   if (now.passed_m != seen_.passed_m || now.refused_m != seen_.refused_m)
-    tell(tick, kGraftSized, {1e3 * now.passed_m, 1e3 * now.refused_m, 1e3 * graft->length_m}, out);
+    out.push_back(event_of(tick, kGraftSized,
+                           {1e3 * now.passed_m, 1e3 * now.refused_m, 1e3 * graft->length_m}));
   if (now.creep_s < told_creep_s_) told_creep_s_ = 0;  // a restore point
   if (now.creep_s - told_creep_s_ >= kTellEvery_s) {
     told_creep_s_ = now.creep_s;
-    tell(tick, kGraftTensioned, {now.creep_s, now.tension_n, 0}, out);
+    out.push_back(event_of(tick, kGraftTensioned, {now.creep_s, now.tension_n, 0}));
   }
   tell_loop(tick, *graft, now, out);
 }
@@ -124,8 +119,9 @@ void GraftWatch::tell_loop(std::uint64_t tick, const Graft& graft, const GraftBe
       room_ ? 1e3 * (room_->wide_m - graft.sized_m) : 0};
   const std::size_t count = values.size() - (room_ ? 0 : 1);
   for (std::size_t i = 0; i < count; ++i)
-    tell(tick, kGraftMeasured, {static_cast<double>(i), values[i], 0}, out);
-  tell(tick, kLoopHung, {1e3 * now.loop_m, 1e3 * fit.in_socket_m, fit.flips ? 1.0 : 0.0}, out);
+    out.push_back(event_of(tick, kGraftMeasured, {static_cast<double>(i), values[i], 0}));
+  out.push_back(
+      event_of(tick, kLoopHung, {1e3 * now.loop_m, 1e3 * fit.in_socket_m, fit.flips ? 1.0 : 0.0}));
 }
 
 void GraftWatch::set_room(const std::optional<GraftRoom>& room) {

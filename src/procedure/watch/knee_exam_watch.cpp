@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "watch/watch_event.h"
+
 namespace osteon {
 namespace {
 
@@ -40,13 +42,9 @@ void KneeExamWatch::follow(std::uint64_t tick, KneeTest test, const BoneSnapshot
   if (!found || !course.done || course.farthest.front_m > found->front_m) found = course.farthest;
   if (course.done) return;
   course.done = true;
-  Event event;
-  event.tick = tick;
-  event.kind = kKneeExamined;
-  event.hand = 0;
-  event.values = {static_cast<double>(i), static_cast<double>(exam.knee),
-                  1e3 * found->side_difference_m()};
-  out.push_back(event);
+  out.push_back(event_of(
+      tick, kKneeExamined,
+      {static_cast<double>(i), static_cast<double>(exam.knee), 1e3 * found->side_difference_m()}));
 }
 
 void KneeExamWatch::follow_bend(std::uint64_t tick, const BoneSnapshot& bones,
@@ -56,12 +54,7 @@ void KneeExamWatch::follow_bend(std::uint64_t tick, const BoneSnapshot& bones,
   if (stands && stands_deg_ == bones.bend.now_deg) return;
   stands_deg_ = stands ? std::optional(bones.bend.now_deg) : std::nullopt;
   if (!stands) return;
-  Event event;
-  event.tick = tick;
-  event.kind = kKneeBent;
-  event.hand = 0;
-  event.values = {bones.bend.now_deg, 0, 0};
-  out.push_back(event);
+  out.push_back(event_of(tick, kKneeBent, {bones.bend.now_deg, 0, 0}));
 }
 
 void KneeExamWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out) {

@@ -4,21 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "watch/watch_event.h"
+
 namespace osteon {
-namespace {
-
-void tell_placing(std::uint64_t tick, EventKind kind, std::array<double, 3> values,
-                  std::vector<Event>& out) {
-  Event event;
-  event.tick = tick;
-  event.kind = kind;
-  event.hand = 0;
-  event.values = values;
-  out.push_back(event);
-}
-
-}  // namespace
-
 double excursion_m(const BentGraft& bent) {
   double least = 0, most = 0;
   for (const double length : bent.lengths_m) {
@@ -40,17 +28,17 @@ void PlacingWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vecto
     return;
   }
   const double beyond_mm = 1e3 * (now.drawn_m - now.plan.button_out_m());
-  if (now.lost > was.lost) tell_placing(tick, kThreadLost, {double(now.lost), 0, 0}, out);
+  if (now.lost > was.lost) out.push_back(event_of(tick, kThreadLost, {double(now.lost), 0, 0}));
   if (now.phase != was.phase && now.phase == PlacingPhase::kThreadInside &&
       was.phase == PlacingPhase::kEmpty)
-    tell_placing(tick, kThreadLaid, {double(now.lost), 0, 0}, out);
+    out.push_back(event_of(tick, kThreadLaid, {double(now.lost), 0, 0}));
   if (now.phase != was.phase && now.phase == PlacingPhase::kThreadOut &&
       was.phase != PlacingPhase::kTurned)
-    tell_placing(tick, kThreadOut, {0, 0, 0}, out);
+    out.push_back(event_of(tick, kThreadOut, {0, 0, 0}));
   if (now.let_go_early > was.let_go_early)
-    tell_placing(tick, kButtonLetGo, {-beyond_mm, now.most_pull_n, 0}, out);
+    out.push_back(event_of(tick, kButtonLetGo, {-beyond_mm, now.most_pull_n, 0}));
   if (now.phase != was.phase && now.phase == PlacingPhase::kTurned)
-    tell_placing(tick, kButtonTurned, {1e3 * now.gap_m, now.most_pull_n, beyond_mm}, out);
+    out.push_back(event_of(tick, kButtonTurned, {1e3 * now.gap_m, now.most_pull_n, beyond_mm}));
   add_fixing(tick, bones, out);
   seen_ = now;
 }
@@ -72,18 +60,17 @@ void PlacingWatch::add_fixing(std::uint64_t tick, const BoneSnapshot& bones,
       bent_.lengths_m[n] = placing_between_m(now.plan, bones);
   }
   if (bones.bend.cycles > cycles_)
-    tell_placing(tick, kKneeCycled, {double(bones.bend.cycles), now.tension_n, 0}, out);
+    out.push_back(event_of(tick, kKneeCycled, {double(bones.bend.cycles), now.tension_n, 0}));
   cycles_ = bones.bend.cycles;
   const PlacingScrew& screw = now.screw;
   if (!screw.done || seen_.screw.done) return;
   const double cosine =
       screw.out_B.dot((now.plan.tibia.outer_B - now.plan.tibia.mouth_B).normalized());
   const double apart_deg = 180 / std::numbers::pi * std::acos(std::clamp(cosine, -1.0, 1.0));
-  tell_placing(tick, kScrewIn, {1e3 * screw.in_m, apart_deg, screw.tension_n}, out);
-  tell_placing(tick, kGraftFixed,
-               {screw.flexion_deg, double(screw.cycles),
-                1e3 * (screw.width_m - 2 * now.plan.tibia.radius_m)},
-               out);
+  out.push_back(event_of(tick, kScrewIn, {1e3 * screw.in_m, apart_deg, screw.tension_n}));
+  out.push_back(event_of(tick, kGraftFixed,
+                         {screw.flexion_deg, double(screw.cycles),
+                          1e3 * (screw.width_m - 2 * now.plan.tibia.radius_m)}));
 }
 
 }  // namespace osteon

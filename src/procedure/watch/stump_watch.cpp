@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "watch/tip_sight.h"
+#include "watch/watch_event.h"
 
 namespace osteon {
 
@@ -38,12 +39,7 @@ void StumpWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot
   const bool again = now > 0 && tick % kTellStumps == 0;
   if (now == told_percent_ && !again) return;
   told_percent_ = now;
-  Event event;
-  event.tick = tick;
-  event.kind = kStumpsCleared;
-  event.hand = 0;
-  event.values = {static_cast<double>(now), blind_percent_, 0};
-  out.push_back(event);
+  out.push_back(event_of(tick, kStumpsCleared, {static_cast<double>(now), blind_percent_, 0}));
 }
 
 }  // namespace osteon

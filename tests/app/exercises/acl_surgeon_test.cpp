@@ -12,10 +12,12 @@
 
 #include "cases/open_case.h"
 #include "commands/teaching/opened_knee.h"
+#include "exercises/scenario_files.h"
 #include "osteon/collide/segments.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/marks_now.h"
+#include "osteon/surgeon/graft_surgeon.h"
 #include "osteon/surgeon/puncture_surgeon.h"
 
 namespace osteon {
@@ -203,6 +205,20 @@ TEST(AclSurgeon, BeforeTheKneeIsBentTheScopeShowsTheInnerSide) {
   for (const char* mark : marks) {
     EXPECT_GT(shown_s(**knee, ways->scope, optics, mark, made_s), 1.5) << mark;
     EXPECT_LT(shown_s(**knee, plain->scope, optics, mark, made_s), 0.5) << mark;
+  }
+}
+
+TEST(AclSurgeon, CanMakeEachErrorThatAReconstructionNames) {
+  for (const char* name : {"acl", "acl_second_look"}) {
+    const auto scenario = open_scenario(name);
+    ASSERT_TRUE(scenario) << scenario.error().message();
+    ASSERT_FALSE(scenario->errors.empty());
+    for (const ScenarioError& error : scenario->errors) {
+      bool known = false;
+      for (const auto faults : {acl_faults(), graft_faults_in_knee(), puncture_faults()})
+        known = known || std::find(faults.begin(), faults.end(), error.name) != faults.end();
+      EXPECT_TRUE(known) << name << ": " << error.name;
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "osteon/scene/field_cache.h"
 #include "physics/disc_fixtures.h"
 
 namespace osteon {
@@ -20,6 +21,17 @@ TEST(DiscSetup, ACaseWithoutADiscIsRefusedAndSaysWhatToGive) {
   DiscRow other = disc_row();
   other.part = "labrum";
   EXPECT_FALSE(make_disc_solids(*disc_case(), other, kDiscTable_n_per_m));
+}
+
+TEST(DiscSetup, AFieldThatIsKnownIsNotMadeAgain) {
+  FieldCache known;
+  const auto first = make_disc_solids(*disc_case(), disc_row(), kDiscTable_n_per_m, &known);
+  const auto second = make_disc_solids(*disc_case(), disc_row(), kDiscTable_n_per_m, &known);
+  const auto without = make_disc_solids(*disc_case(), disc_row(), kDiscTable_n_per_m);
+  ASSERT_TRUE(first && second && without);
+  EXPECT_EQ(second->front().field, first->front().field);
+  EXPECT_NE(without->front().field, first->front().field);
+  EXPECT_EQ(hash_of(*without), hash_of(*first));
 }
 
 TEST(DiscSetup, OneThatReachesOnlyOneBoneIsRefused) {
